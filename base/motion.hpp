@@ -1,0 +1,43 @@
+// A step's positions, checked and copied once into plain arrays, and the scene-wide sizes the error bounds come from.
+#pragma once
+
+#include <array>
+
+#include "base/aligned.hpp"
+#include "base/mesh_data.hpp"
+#include "onset/result.hpp"
+#include "onset/views.hpp"
+
+namespace onset {
+
+inline constexpr double kMaxCoordinate = 0x1p1020;  // beyond this a difference of differences could overflow
+
+// One cache line a vertex: x y z 0 at t = 0, x y z 0 at t = 1.
+inline constexpr int kMotionStride = 8;
+
+// The three axes are stored in an order that depends on the motion only up to a permutation of axes (see
+// canonical_axes), so that everything after this is bit for bit the same for a scene with its axes exchanged.
+struct Motion {
+  AlignedArray<double> x;            // kMotionStride doubles a vertex
+  int num_vertices = 0;
+  std::array<int, 3> axes{0, 1, 2};  // axes[i]: the caller's column stored as axis i
+  Outcome status = Outcome::free;    // free, non_finite or out_of_range
+  int bad_vertex = -1;
+
+  const double* t0(int v) const { return x.data() + std::size_t(v) * kMotionStride; }
+  const double* t1(int v) const { return x.data() + std::size_t(v) * kMotionStride + 4; }
+};
+
+// Throws std::invalid_argument when a row count differs from num_vertices or there are not 3 columns.
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1);
+
+// Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j| (edge-edge) that a pair
+// with overlapping swept boxes can have (each side of the pair spans its swept extent, and the boxes are at most `gap`
+// apart): R <= w(A) + w(B) + gap.
+struct Extents {
+  std::array<double, 3> vertex_face{}, edge_edge{};
+  double largest() const;  // over kinds and axes
+};
+Extents corner_extents(const MeshData& mesh, const Motion& motion, double gap);
+
+}  // namespace onset

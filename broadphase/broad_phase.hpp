@@ -1,0 +1,41 @@
+// Boxes in, candidate pairs out: the interface that the BVH, the spatial hash and brute force share.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "base/mesh_data.hpp"
+#include "base/motion.hpp"
+#include "base/pair_sink.hpp"
+#include "onset/options.hpp"
+
+namespace onset {
+
+// What a candidate is. swept: the boxes of the motion, exact in double, each widened outward, overlap (closed boxes).
+// motion: in addition no axis separates the boxes on the same side at both ends of the step, since then linear motion keeps
+// them apart throughout; a subset of swept up to outward rounding, and what the pipeline uses.
+enum class BoxTest { swept, motion };
+
+struct BroadPhaseInput {
+  const MeshData& mesh;
+  const Motion& motion;
+  double inflation = 0;  // every primitive is widened by this, plus the largest thickness of its vertices, rounded outward
+  double horizon = 1;    // only the motion on [0, horizon] matters; horizon 1 means the exact end positions
+  BoxTest test = BoxTest::motion;
+  Kernel kernel = Kernel::automatic;
+};
+
+// Pairs that share a vertex are never emitted; every other pair that passes the test is emitted exactly once.
+class BroadPhase {
+ public:
+  virtual ~BroadPhase() = default;
+  virtual const char* name() const = 0;
+  // Units of work that may be traversed concurrently; their number and content do not depend on the thread count.
+  virtual std::size_t blocks(PairKind kind) const = 0;
+  // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
+  virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
+};
+
+std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input);
+
+}  // namespace onset

@@ -1,0 +1,9 @@
+// Everything a simulator includes.
+#pragma once
+
+#include <onset/mesh.hpp>
+#include <onset/options.hpp>
+#include <onset/pipeline.hpp>
+#include <onset/query.hpp>
+#include <onset/result.hpp>
+#include <onset/views.hpp>

@@ -1,0 +1,100 @@
+// What the calls return: outcomes, the limiting pair, contacts, statistics. Plain data.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <onset/export.hpp>
+#include <vector>
+
+namespace onset {
+
+enum class PairKind : std::uint8_t { vertex_face, edge_edge };
+
+// How a pair, or the whole step, ended. Everything a running solver can produce is one of these, never an exception.
+enum class Outcome : std::uint8_t {
+  free,                // certified: farther apart than the separation for the whole step
+  contact,             // comes within separation + tolerance at toi > 0
+  initial_contact,     // touching, or closer than the separation, at t = 0 and pressing: toi 0
+  initial_separating,  // the same at t = 0, but the motion never brings the pair closer than it starts: does not limit a step
+  budget,              // max_checks spent: free until toi, undecided after
+  non_finite,          // a position is NaN or infinite: step 0, `vertex` names the first
+  out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
+};
+ONSET_API const char* to_string(Outcome outcome);
+
+// One pair of primitives. vertex_face: a is the vertex, b the face. edge_edge: a < b are edges.
+struct Pair {
+  PairKind kind = PairKind::vertex_face;
+  int a = -1, b = -1;
+  std::array<int, 4> vertices{-1, -1, -1, -1};  // vertex_face: v, f0, f1, f2; edge_edge: a0, a1, b0, b1
+};
+
+struct PairCounts {
+  std::int64_t vertex_face = 0, edge_edge = 0;
+  std::int64_t total() const { return vertex_face + edge_edge; }
+};
+
+// Filled by every call; cheap enough to be always on.
+struct Stats {
+  PairCounts swept;       // pairs whose swept boxes overlap, where the call counted them (candidates)
+  PairCounts candidates;  // pairs handed to the narrow phase
+  PairCounts contacts;    // pairs not certified free
+  PairCounts after_culls; // candidates that the single-precision culls could not separate
+  PairCounts inclusion;   // candidates that needed the inclusion root finder
+  PairCounts budget;      // candidates that spent max_checks
+  std::int64_t checks = 0, max_checks_of_a_pair = 0;
+  double seconds_broad = 0, seconds_narrow = 0, seconds_total = 0;  // broad: motion, boxes and tree; narrow: traversal
+                                                                    // and certificates, which are fused
+  double tolerance = 0;           // model length: Options::tolerance, or the relative one times `extent`
+  double achieved_tolerance = 0;  // the largest distance beyond the separation at which a pair was reported
+  double extent = 0;              // R: the largest corner difference that an overlapping pair can have
+  std::array<double, 3> error_bound{};  // per axis: bound on the rounding error of a corner anywhere in the scene
+  int threads = 0;
+  const char* kernel = "";
+  const char* broad_phase = "";
+};
+
+struct StepResult {
+  double step = 0;  // in [0, 1]: x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step), exact motion
+  Outcome outcome = Outcome::free;
+  Pair limiting;    // the pair that limits the step (a = -1 where none does)
+  int vertex = -1;  // the offending vertex of non_finite and out_of_range
+  Stats stats;
+};
+
+// One entry a contact, ordered by (kind, a, b): the same bytes for any number of threads and either kernel.
+struct ActiveSet {
+  std::vector<PairKind> kind;
+  std::vector<int> a, b;
+  std::vector<std::array<int, 4>> vertices;
+  std::vector<double> toi;      // certified: the pair is apart on [0, toi); never later than the exact time
+  std::vector<Outcome> status;  // contact, initial_contact, initial_separating or budget
+  Outcome outcome = Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is empty
+  int vertex = -1;
+  Stats stats;
+
+  std::size_t size() const { return kind.size(); }
+  ONSET_API std::ptrdiff_t earliest() const;  // index of the smallest (toi, position), -1 when empty
+  Pair pair(std::size_t i) const { return {kind[i], a[i], b[i], vertices[i]}; }
+};
+
+// One pair on its own.
+struct QueryResult {
+  Outcome outcome = Outcome::free;
+  double toi = 1;        // in [0, 1]; 1 when free
+  double tolerance = 0;  // distance beyond the separation at which the pair was reported
+  std::int64_t checks = 0;
+  bool collides() const { return outcome != Outcome::free; }
+};
+
+// The pairs whose swept boxes (of the motion, widened by half the separation each) overlap and share no vertex.
+struct Candidates {
+  std::vector<std::array<int, 2>> vertex_face, edge_edge;  // sorted; empty when only counts were asked for
+  PairCounts counts;
+  Outcome outcome = Outcome::free;
+  int vertex = -1;
+  Stats stats;
+};
+
+}  // namespace onset
