@@ -1,0 +1,149 @@
+#include "base/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "base/parallel.hpp"
+
+namespace onset {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+void check_shape(const char* name, int num_vertices, const Positions& x) {
+  if (x.cols() != 3 || x.rows() != num_vertices)
+    throw std::invalid_argument(std::string(name) + " has " + std::to_string(x.rows()) + " rows of " +
+                                std::to_string(x.cols()) + " coordinates; the mesh has " +
+                                std::to_string(num_vertices) + " vertices and needs one row of 3 for each");
+}
+
+// -1, 0, 1 as column i of the caller's positions comes before, with or after column j. The order depends only on differences of
+// positions along an axis and not on their sign, so it commutes with exchanging axes, flipping them, exact translation
+// and power-of-two scaling. Columns that tie are equal up to sign and may be exchanged freely.
+int compare_columns(const Motion& m, int i, int j) {
+  double sign[2] = {0, 0};
+  const int column[2] = {i, j};
+  for (int pass = 0; pass < 2; ++pass) {  // magnitudes first, then signs relative to the first non-zero one
+    for (int v = 0; v < m.num_vertices; ++v)
+      for (const double* x : {m.t0(v), m.t1(v)}) {
+        double d[2];
+        for (int k = 0; k < 2; ++k) {
+          d[k] = x[column[k]] - m.t0(0)[column[k]];
+          if (sign[k] == 0 && d[k] != 0) sign[k] = d[k] > 0 ? 1 : -1;
+          d[k] = pass == 0 ? std::fabs(d[k]) : d[k] * sign[k];
+        }
+        if (d[0] != d[1]) return d[0] > d[1] ? -1 : 1;
+      }
+  }
+  return 0;
+}
+
+// The widest axis first.
+std::array<int, 3> canonical_axes(const Motion& m) {
+  std::array<double, 3> width{};
+  for (int a = 0; a < 3; ++a) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (int v = 0; v < m.num_vertices; ++v)
+      for (const double* x : {m.t0(v), m.t1(v)}) lo = std::min(lo, x[a]), hi = std::max(hi, x[a]);
+    width[a] = hi - lo;
+  }
+  std::array<int, 3> axes{0, 1, 2};
+  const auto before = [&](int i, int j) {
+    return width[i] != width[j] ? width[i] > width[j] : compare_columns(m, i, j) < 0;
+  };
+  std::stable_sort(axes.begin(), axes.end(), before);
+  return axes;
+}
+
+void store_permuted(Motion& m) {
+  if (m.axes == std::array<int, 3>{0, 1, 2}) return;
+  parallel_ranges(std::size_t(m.num_vertices) * 2, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      double* x = m.x.data() + 4 * i;
+      const double old[3] = {x[0], x[1], x[2]};
+      for (int a = 0; a < 3; ++a) x[a] = old[m.axes[a]];
+    }
+  });
+}
+
+Outcome classify(const double* x) {
+  Outcome result = Outcome::free;
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(x[a])) return Outcome::non_finite;
+    if (std::fabs(x[a]) > kMaxCoordinate) result = Outcome::out_of_range;
+  }
+  return result;
+}
+
+void find_bad_vertex(Motion& m) {
+  for (int v = 0; v < m.num_vertices && m.status == Outcome::free; ++v)
+    for (const double* x : {m.t0(v), m.t1(v)})
+      if (const Outcome o = classify(x); o != Outcome::free && m.status == Outcome::free) m.status = o, m.bad_vertex = v;
+}
+
+}  // namespace
+
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1) {
+  check_shape("x_t0", num_vertices, x_t0);
+  check_shape("x_t1", num_vertices, x_t1);
+  Motion m;
+  m.num_vertices = num_vertices;
+  m.x = AlignedArray<double>(std::size_t(num_vertices) * kMotionStride);
+  parallel_ranges(num_vertices, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      double* x = m.x.data() + v * kMotionStride;
+      for (int a = 0; a < 3; ++a) x[a] = x_t0(v, a), x[4 + a] = x_t1(v, a);
+      x[3] = x[7] = 0;
+    }
+  });
+  find_bad_vertex(m);
+  if (m.status != Outcome::free || num_vertices == 0) return m;
+  m.axes = canonical_axes(m);
+  store_permuted(m);
+  return m;
+}
+
+double Extents::largest() const {
+  double r = 0;
+  for (int a = 0; a < 3; ++a) r = std::max({r, vertex_face[a], edge_edge[a]});
+  return r;
+}
+
+namespace {
+
+// Largest swept extent, per axis, over elements of N vertices; rounded up.
+template <std::size_t N>
+std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& elements, const Motion& m) {
+  std::array<double, 3> widest{};
+  for (const auto& e : elements)
+    for (int a = 0; a < 3; ++a) {
+      double lo = m.t0(e[0])[a], hi = lo;
+      for (int v : e) {
+        lo = std::min({lo, m.t0(v)[a], m.t1(v)[a]});
+        hi = std::max({hi, m.t0(v)[a], m.t1(v)[a]});
+      }
+      widest[a] = std::max(widest[a], hi - lo);
+    }
+  for (double& w : widest) w *= 1 + 0x1p-52;  // hi - lo rounds to nearest: one ulp more is an upper bound
+  return widest;
+}
+
+}  // namespace
+
+Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
+  Extents r;
+  const auto edge = largest_swept(mesh.edges, m);
+  const auto face = largest_swept(mesh.faces, m);
+  std::array<double, 3> moved{};
+  for (int v = 0; v < m.num_vertices; ++v)
+    for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], std::fabs(m.t1(v)[a] - m.t0(v)[a]));
+  for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor (1 + 4u)
+    if (!mesh.faces.empty()) r.vertex_face[a] = (moved[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
+    if (!mesh.edges.empty()) r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);
+  }
+  return r;
+}
+
+}  // namespace onset

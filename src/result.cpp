@@ -1,0 +1,25 @@
+#include "onset/result.hpp"
+
+namespace onset {
+
+const char* to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::free: return "free";
+    case Outcome::contact: return "contact";
+    case Outcome::initial_contact: return "initial_contact";
+    case Outcome::initial_separating: return "initial_separating";
+    case Outcome::budget: return "budget";
+    case Outcome::non_finite: return "non_finite";
+    case Outcome::out_of_range: return "out_of_range";
+  }
+  return "unknown";
+}
+
+std::ptrdiff_t ActiveSet::earliest() const {
+  std::ptrdiff_t best = -1;
+  for (std::size_t i = 0; i < toi.size(); ++i)
+    if (best < 0 || toi[i] < toi[std::size_t(best)]) best = std::ptrdiff_t(i);
+  return best;
+}
+
+}  // namespace onset
