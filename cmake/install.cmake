@@ -1,0 +1,34 @@
+# find_package(onset CONFIG) and pkg-config for the installed library.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(onset_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/onset)
+
+install(TARGETS onset EXPORT onsetTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+        INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY include/onset DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(EXPORT onsetTargets NAMESPACE onset:: DESTINATION ${onset_cmake_dir})
+
+# TBB is private: only who links the static library has to find it.
+get_target_property(onset_type onset TYPE)
+if(onset_type STREQUAL "STATIC_LIBRARY")
+  set(ONSET_IS_STATIC ON)
+  set(onset_pc_requires "eigen3, tbb")
+else()
+  set(ONSET_IS_STATIC OFF)
+  set(onset_pc_requires "eigen3")
+endif()
+
+configure_package_config_file(cmake/onsetConfig.cmake.in onsetConfig.cmake INSTALL_DESTINATION ${onset_cmake_dir})
+# 0.x: every minor version may change the interface.
+write_basic_package_version_file(onsetConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/onsetConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/onsetConfigVersion.cmake
+        DESTINATION ${onset_cmake_dir})
+
+# The prefix is worked out from where onset.pc lies, so that the installed tree can be moved.
+file(RELATIVE_PATH onset_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(cmake/onset.pc.in onset.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/onset.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

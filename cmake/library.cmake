@@ -1,9 +1,26 @@
 # How the library itself is compiled. Its arithmetic is part of its promise: no contraction, no fast-math, no -march.
-set_target_properties(onset PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
-                                       VISIBILITY_INLINES_HIDDEN ON)
+# These flags come after CMAKE_CXX_FLAGS, so they also hold inside a parent project that sets -ffast-math.
+set_target_properties(onset PROPERTIES
+  POSITION_INDEPENDENT_CODE ON
+  CXX_VISIBILITY_PRESET hidden
+  VISIBILITY_INLINES_HIDDEN ON
+  CXX_EXTENSIONS OFF
+  VERSION ${PROJECT_VERSION}
+  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # 0.x: every minor version may break the ABI
 target_compile_features(onset PUBLIC cxx_std_17)
 target_include_directories(onset PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-                                        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
                                  PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE TBB::tbb)
 target_compile_options(onset PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off -fno-fast-math -Wall -Wextra>)
+
+# Tests see the rooms inside, which a shared library hides: for them the same objects in a static one.
+if(ONSET_BUILD_TESTS AND BUILD_SHARED_LIBS)
+  get_target_property(onset_sources onset SOURCES)
+  add_library(onset_inside STATIC ${onset_sources})
+  target_include_directories(onset_inside PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+  target_compile_features(onset_inside PUBLIC cxx_std_17)
+  target_compile_options(onset_inside PRIVATE $<TARGET_PROPERTY:onset,COMPILE_OPTIONS>)
+  target_link_libraries(onset_inside PUBLIC Eigen3::Eigen PRIVATE TBB::tbb)
+else()
+  add_library(onset_inside ALIAS onset)
+endif()
