@@ -11,16 +11,18 @@
 
 namespace onset {
 
-// What a candidate is. swept: the boxes of the motion, exact in double, each widened outward, overlap (closed boxes).
-// motion: in addition no axis separates the boxes on the same side at both ends of the step, since then linear motion keeps
-// them apart throughout; a subset of swept up to outward rounding, and what the pipeline uses.
+// What a candidate is. swept: the boxes of the motion, exact in double, each widened outward, overlap (closed
+// boxes). motion: in addition no axis separates the boxes on the same side at both ends of the step, since
+// then linear motion keeps them apart throughout; a subset of swept up to outward rounding, and what the
+// pipeline uses.
 enum class BoxTest { swept, motion };
 
 struct BroadPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
-  double inflation = 0;  // every primitive is widened by this, plus the largest thickness of its vertices, rounded outward
-  double horizon = 1;    // only the motion on [0, horizon] matters; horizon 1 means the exact end positions
+  double inflation =
+      0;  // every primitive is widened by this, plus the largest thickness of its vertices, rounded outward
+  double horizon = 1;  // only the motion on [0, horizon] matters; horizon 1 means the exact end positions
   BoxTest test = BoxTest::motion;
   Kernel kernel = Kernel::automatic;
 };
@@ -30,12 +32,17 @@ class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
   virtual const char* name() const = 0;
-  // Units of work that may be traversed concurrently; their number and content do not depend on the thread count.
+  // Units of work that may be traversed concurrently; their number and content do not depend on the thread
+  // count.
   virtual std::size_t blocks(PairKind kind) const = 0;
   // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
   virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
+  // New boxes in the memory and the order already there: another motion, horizon, inflation or test over the
+  // same mesh (the same MeshData object). Afterwards as if made from `input`, up to the order of pairs.
+  virtual void refit(const BroadPhaseInput& input) = 0;
 };
 
+// `input.mesh` and `input.motion` must outlive the result, or its use up to the next refit.
 std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input);
 
 }  // namespace onset

@@ -1,0 +1,10 @@
+// Every pair against the definition: the reference.
+#pragma once
+
+#include "broadphase/broad_phase.hpp"
+
+namespace onset {
+
+std::unique_ptr<BroadPhase> make_brute_force(const BroadPhaseInput& input);
+
+}  // namespace onset
