@@ -1,0 +1,42 @@
+#!/bin/sh
+# Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
+#   install-packages.sh GROUP...     groups: library, apps, tests, clang
+set -eu
+
+library="g++ cmake ninja-build libeigen3-dev libtbb-dev"
+apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
+tests="catch2 libboost-dev libgmp-dev libfcl-dev pkg-config python3 python3-venv ca-certificates"
+clang="clang"
+
+wanted=
+for group; do
+  case $group in
+    library) wanted="$wanted $library" ;;
+    apps) wanted="$wanted $apps" ;;
+    tests) wanted="$wanted $tests" ;;
+    clang) wanted="$wanted $clang" ;;
+    *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  echo "This system has no apt-get. Install what these packages of Debian hold, then use cmake:$wanted" >&2
+  exit 1
+fi
+
+missing=
+for package in $wanted; do
+  status=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+  [ "$status" = "install ok installed" ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+as_root=
+if [ "$(id -u)" != 0 ]; then
+  command -v sudo >/dev/null || { echo "As root: apt-get install$missing" >&2; exit 1; }
+  as_root=sudo
+fi
+echo "Installing:$missing"
+$as_root apt-get update -q
+# shellcheck disable=SC2086  # the packages are words
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
