@@ -1,0 +1,22 @@
+// The options that every subcommand has.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <onset/options.hpp>
+#include <string>
+
+namespace app {
+
+struct Arguments {
+  onset::Options options;
+  std::string broad_phase = "auto", narrow_phase = "auto", kernel = "auto", norm = "euclidean";
+  std::string json, csv;  // a path, "-" for stdout, empty for none
+};
+
+// Adds them to `command`; `arguments` must outlive the parse. `csv_columns` goes into the help.
+void add_common_options(CLI::App& command, Arguments& arguments, const std::string& csv_columns);
+
+// What the library takes. Throws UsageError where two outputs share one destination.
+onset::Options to_options(const Arguments& arguments);
+
+}  // namespace app

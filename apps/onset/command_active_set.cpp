@@ -1,0 +1,38 @@
+// onset active-set: what touches during the step.
+#include "progress.hpp"
+#include "report.hpp"
+#include "scene_command.hpp"
+
+namespace app {
+namespace {
+
+onset::ActiveSet compute(const Scene& scene, const onset::Options& options) {
+  const Progress progress("active set");
+  return onset::construct_active_set(scene.mesh, scene.x_t0, scene.x_t1, options);
+}
+
+std::string summary(const onset::ActiveSet& set) {
+  const std::ptrdiff_t first = set.earliest();
+  std::string text = format("outcome     %s\ncontacts    %s\n", onset::to_string(set.outcome),
+                            describe(set.stats.contacts).c_str());
+  if (set.vertex >= 0) text += format("vertex      %d\n", set.vertex);
+  if (first >= 0)
+    text += format("earliest    t = %.17g, %s\n", set.toi[std::size_t(first)],
+                   describe(set.pair(std::size_t(first))).c_str());
+  return text + describe_stats(set.stats);
+}
+
+}  // namespace
+
+void add_active_set(CLI::App& app, Run& run) {
+  add_scene_command(
+      app, run, "active-set", "Every pair that comes into contact between A and B, with its time of impact",
+      "kind,a,b,toi,v0,v1,v2,v3,status (vf: vertex and face; ee: edges in the order of igl::edges)",
+      [](const Scene& scene, const onset::Options& options, Outputs& outputs) {
+        const onset::ActiveSet set = compute(scene, options);
+        if (outputs.csv()) write_active_set_csv(*outputs.csv(), set);
+        outputs.finish(active_set_json(set), describe_sizes(scene.mesh) + summary(set));
+      });
+}
+
+}  // namespace app

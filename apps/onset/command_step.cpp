@@ -1,0 +1,38 @@
+// onset step: how far the motion can go.
+#include "progress.hpp"
+#include "report.hpp"
+#include "scene_command.hpp"
+
+namespace app {
+namespace {
+
+void write_csv(Output& csv, const onset::StepResult& r) {
+  csv.write("outcome,step,kind,a,b,v0,v1,v2,v3\n");
+  csv.write(format("%s,%.17g,", onset::to_string(r.outcome), r.step));
+  const auto& v = r.limiting.vertices;
+  if (r.limiting.a < 0)
+    csv.write(",,,,,,\n");
+  else
+    csv.write(format("%s,%d,%d,%d,%d,%d,%d\n", kind_name(r.limiting.kind), r.limiting.a, r.limiting.b, v[0],
+                     v[1], v[2], v[3]));
+}
+
+onset::StepResult compute(const Scene& scene, const onset::Options& options) {
+  const Progress progress("step");
+  return onset::compute_collision_free_stepsize(scene.mesh, scene.x_t0, scene.x_t1, options);
+}
+
+}  // namespace
+
+void add_step(CLI::App& app, Run& run) {
+  add_scene_command(app, run, "step", "The largest step from A towards B that is certainly free of contact",
+                    "outcome,step,kind,a,b,v0,v1,v2,v3",
+                    [](const Scene& scene, const onset::Options& options, Outputs& outputs) {
+                      const onset::StepResult result = compute(scene, options);
+                      if (outputs.csv()) write_csv(*outputs.csv(), result);
+                      outputs.finish(step_json(result), describe_sizes(scene.mesh) + describe_step(result) +
+                                                            describe_stats(result.stats));
+                    });
+}
+
+}  // namespace app

@@ -1,0 +1,17 @@
+// The subcommands: each adds itself to the command line and leaves what to run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace app {
+
+using Run = std::function<void()>;  // throws InputError, UsageError
+
+void add_step(CLI::App& app, Run& run);
+void add_active_set(CLI::App& app, Run& run);
+void add_candidates(CLI::App& app, Run& run);
+void add_queries(CLI::App& app, Run& run);
+void add_demo(CLI::App& app, Run& run);
+
+}  // namespace app

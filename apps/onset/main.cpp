@@ -1,0 +1,57 @@
+// onset: the command line of the library.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "commands.hpp"
+#include "error.hpp"
+
+namespace {
+
+// One line on stderr, whatever the cause.
+int fail(app::ExitCode code, std::string message) {
+  for (char& c : message)
+    if (c == '\n') c = ' ';
+  std::fprintf(stderr, "onset: %s\n", message.c_str());
+  return code;
+}
+
+void describe(CLI::App& app) {
+  app.name("onset");
+  app.set_version_flag("--version", "onset " ONSET_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  onset demo                                   a scene of its own, no files needed\n"
+      "  onset step before.ply after.ply              how far the motion can go\n"
+      "  onset active-set a.obj b.obj --csv -         what touches, one row a pair\n"
+      "  onset queries data/edge-edge/*.csv           answers against their truth\n"
+      "Exit status: 0 done, whatever the outcome is; 1 bad input, or output that cannot be written; 2 wrong "
+      "usage.");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Conservative continuous collision detection: when does a moving mesh first touch itself?");
+  app::Run run;
+  describe(app);
+  app::add_step(app, run);
+  app::add_active_set(app, run);
+  app::add_candidates(app, run);
+  app::add_queries(app, run);
+  app::add_demo(app, run);
+  try {
+    app.parse(argc, argv);
+    run();
+    return app::kExitOk;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    return fail(app::kExitUsage, std::string(e.what()) + " (see onset --help)");
+  } catch (const app::UsageError& e) {
+    return fail(app::kExitUsage, e.what());
+  } catch (const std::exception& e) {
+    return fail(app::kExitBadInput, e.what());
+  }
+}

@@ -1,0 +1,22 @@
+// Reads queries with truth: appendix A of Wang, Ferguson et al. 2021.
+#pragma once
+
+#include <onset/query.hpp>
+#include <string>
+#include <vector>
+
+namespace app {
+
+struct TruthQuery {
+  std::array<onset::Point, 4> t0, t1;  // vertex-face: v, f0, f1, f2; edge-edge: a0, a1, b0, b1
+  bool collides = false;
+};
+
+// Eight rows a query, each xn,xd,yn,yd,zn,zd,truth. Throws InputError naming file and line.
+std::vector<TruthQuery> read_queries(const std::string& path);
+
+// The kind that a path tells by "vertex-face" or "vf", "edge-edge" or "ee" as whole words of letters
+// ("326vf.csv"), the file's name before its folders. Throws InputError where it tells none, or both at once.
+onset::PairKind kind_from_path(const std::string& path);
+
+}  // namespace app

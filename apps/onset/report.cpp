@@ -1,0 +1,106 @@
+#include "report.hpp"
+
+namespace app {
+
+const char* kind_name(onset::PairKind kind) { return kind == onset::PairKind::vertex_face ? "vf" : "ee"; }
+
+Json to_json(const onset::PairCounts& counts) {
+  return {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
+}
+
+Json to_json(const onset::Pair& pair) {
+  if (pair.a < 0) return nullptr;
+  return {{"kind", kind_name(pair.kind)}, {"a", pair.a}, {"b", pair.b}, {"vertices", pair.vertices}};
+}
+
+Json to_json(const onset::Stats& s) {
+  return {{"swept", to_json(s.swept)},
+          {"candidates", to_json(s.candidates)},
+          {"contacts", to_json(s.contacts)},
+          {"after_culls", to_json(s.after_culls)},
+          {"inclusion", to_json(s.inclusion)},
+          {"budget", to_json(s.budget)},
+          {"checks", s.checks},
+          {"max_checks_of_a_pair", s.max_checks_of_a_pair},
+          {"achieved_tolerance", s.achieved_tolerance},
+          {"extent", s.extent},
+          {"error_bound", s.error_bound},
+          {"threads", s.threads},
+          {"kernel", s.kernel},
+          {"broad_phase", s.broad_phase}};
+}
+
+Json seconds_json(const onset::Stats& s) {
+  return {{"broad", s.seconds_broad}, {"narrow", s.seconds_narrow}, {"total", s.seconds_total}};
+}
+
+Json step_json(const onset::StepResult& r) {
+  Json json = {{"outcome", onset::to_string(r.outcome)}, {"step", r.step},
+               {"limiting", to_json(r.limiting)},        {"candidates", to_json(r.stats.candidates)},
+               {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance}};
+  if (r.vertex >= 0) json["vertex"] = r.vertex;
+  json["stats"] = to_json(r.stats);
+  return json;
+}
+
+Json active_set_json(const onset::ActiveSet& set) {
+  const std::ptrdiff_t first = set.earliest();
+  Json pair = nullptr;
+  if (first >= 0) {
+    pair = to_json(set.pair(std::size_t(first)));
+    pair["toi"] = set.toi[std::size_t(first)];
+    pair["status"] = onset::to_string(set.status[std::size_t(first)]);
+  }
+  Json json = {{"contacts", to_json(set.stats.contacts)},
+               {"earliest", first < 0 ? Json() : Json(set.toi[std::size_t(first)])},
+               {"candidates", to_json(set.stats.candidates)},
+               {"seconds", seconds_json(set.stats)},
+               {"earliest_pair", pair},
+               {"outcome", onset::to_string(set.outcome)},
+               {"tolerance", set.stats.tolerance}};
+  if (set.vertex >= 0) json["vertex"] = set.vertex;
+  json["stats"] = to_json(set.stats);
+  return json;
+}
+
+void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
+  csv.write("kind,a,b,toi,v0,v1,v2,v3,status\n");
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const auto& v = set.vertices[i];
+    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s\n", kind_name(set.kind[i]), set.a[i], set.b[i],
+                     set.toi[i], v[0], v[1], v[2], v[3], onset::to_string(set.status[i])));
+  }
+}
+
+std::string describe(const onset::Pair& pair) {
+  if (pair.a < 0) return "none";
+  const bool vf = pair.kind == onset::PairKind::vertex_face;
+  const auto& v = pair.vertices;
+  return vf ? format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3])
+            : format("edge %d (vertices %d %d) and edge %d (vertices %d %d)", pair.a, v[0], v[1], pair.b,
+                     v[2], v[3]);
+}
+
+std::string describe(const onset::PairCounts& c) {
+  return format("%lld vertex-face, %lld edge-edge", static_cast<long long>(c.vertex_face),
+                static_cast<long long>(c.edge_edge));
+}
+
+std::string describe_step(const onset::StepResult& r) {
+  std::string text = format("outcome     %s\nstep        %.17g\nlimited by  %s\n",
+                            onset::to_string(r.outcome), r.step, describe(r.limiting).c_str());
+  if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
+  return text;
+}
+
+std::string describe_sizes(std::ptrdiff_t vertices, std::ptrdiff_t edges, std::ptrdiff_t faces) {
+  return format("mesh        %td vertices, %td edges, %td faces\n", vertices, edges, faces);
+}
+
+std::string describe_stats(const onset::Stats& s) {
+  return format("candidates  %s\ntolerance   %.3g\nseconds     %.3g (broad %.3g, narrow %.3g)\n",
+                describe(s.candidates).c_str(), s.tolerance, s.seconds_total, s.seconds_broad,
+                s.seconds_narrow);
+}
+
+}  // namespace app

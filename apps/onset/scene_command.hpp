@@ -1,0 +1,22 @@
+// What step, active-set and candidates have in common: two frames in, one result out.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "commands.hpp"
+#include "output.hpp"
+#include "scene.hpp"
+
+namespace app {
+
+using SceneWork = std::function<void(const Scene& scene, const onset::Options& options, Outputs& outputs)>;
+
+// Adds the subcommand with its arguments A and B. Its run reads the scene, opens the outputs, then calls
+// `work`.
+void add_scene_command(CLI::App& app, Run& run, const std::string& name, const std::string& help,
+                       const std::string& csv_columns, SceneWork work);
+
+std::string describe_sizes(const onset::Mesh& mesh);
+
+}  // namespace app
