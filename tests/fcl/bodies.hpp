@@ -17,7 +17,8 @@ namespace onset::fcl_test {
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
 // The faces whose vertices lie in [first, last), as a triangle mesh.
-inline std::shared_ptr<Model> body(const Eigen::MatrixXd& x, const Eigen::MatrixXi& faces, int first, int last) {
+inline std::shared_ptr<Model> body(const Eigen::MatrixXd& x, const Eigen::MatrixXi& faces, int first,
+                                   int last) {
   std::vector<fcl::Vector3d> points;
   for (int v = first; v < last; ++v) points.emplace_back(x.row(v).transpose());
   std::vector<fcl::Triangle> triangles;

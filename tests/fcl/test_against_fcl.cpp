@@ -1,5 +1,6 @@
-// A body moves into another, both generated, turned at random and one of them deforming. FCL, which knows nothing of the motion,
-// must find them apart after the step that the pipeline allows, and meeting after a slightly longer one.
+// A body moves into another, both generated, turned at random and one of them deforming. FCL, which knows
+// nothing of the motion, must find them apart after the step that the pipeline allows, and meeting after a
+// slightly longer one.
 #include <Eigen/Geometry>
 
 #include "onset/pipeline.hpp"
@@ -34,8 +35,8 @@ void turn(Scene& scene, const Eigen::Matrix3d& by) {
   scene.x_t1 = (scene.x_t1 * by.transpose()).eval();
 }
 
-// A cube or a sphere at rest; a sphere at a distance of 0.05 to 0.3 from its bounding sphere that moves through it, its vertices
-// displaced besides by up to `noise`; all of it turned.
+// A cube or a sphere at rest; a sphere at a distance of 0.05 to 0.3 from its bounding sphere that moves
+// through it, its vertices displaced besides by up to `noise`; all of it turned.
 TwoBodies approach(std::uint64_t seed, double noise) {
   Random random(seed);
   const bool is_cube = coin(random);
@@ -71,7 +72,8 @@ TEST_CASE("FCL finds no intersection after the step and one after a step a littl
   }
 }
 
-TEST_CASE("FCL measures the minimum separation after the step, and less after a longer one", "[oracle][fcl]") {
+TEST_CASE("FCL measures the minimum separation after the step, and less after a longer one",
+          "[oracle][fcl]") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const TwoBodies bodies = approach(seed, seed % 2 ? 0 : 0.05);
     const Mesh mesh(bodies.scene.x_t0, bodies.scene.faces);

@@ -1,5 +1,5 @@
-// Calls everything that onset.hpp offers on a scene with a known answer, and prints the results bit by bit: the output is the
-// same however this program and the library were built.
+// Calls everything that onset.hpp offers on a scene with a known answer, and prints the results bit by bit:
+// the output is the same however this program and the library were built.
 #include <cmath>
 #include <cstdio>
 #include <limits>
