@@ -20,7 +20,7 @@ Kernel from_environment() {
 }  // namespace
 
 bool has_avx2() {
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef ONSET_HAVE_AVX2
   return __builtin_cpu_supports("avx2") != 0;
 #else
   return false;

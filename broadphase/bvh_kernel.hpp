@@ -1,0 +1,64 @@
+// The inner loops of the tree: plain pointers and counts, one text, compiled for every instruction set.
+#pragma once
+
+#include <cstddef>
+
+#include "base/pair_sink.hpp"
+
+namespace onset {
+
+// A float box is given by its supports: how far it reaches along -x -y -z +x +y +z, at t = 0 and then at t
+// = 1. The union of boxes is the maximum of their supports; along an axis, two boxes are apart where a
+// support and the opposite support of the other have a negative sum. A swept box has 6 supports, a motion
+// box 12. Boxes are stored in blocks of eight, one row of eight floats a support; rows of unused lanes hold
+// kNowhere.
+inline constexpr int kBlock = 8;
+inline constexpr float kNowhere = -0x1p126f;
+inline constexpr int kMaxLevels = 12;
+
+constexpr int rows_of(bool motion) { return motion ? 12 : 6; }
+
+// An implicit tree: lane i of block n of level l > 0 is the union of block 8 n + i of level l - 1. There are
+// at least two levels, and the last one has one block.
+struct TreeView {
+  float* level[kMaxLevels];
+  int blocks[kMaxLevels];
+  int levels;
+  const int* ids;       // 8 a leaf block
+  const int* vertices;  // vertices_each rows of 8 a leaf block
+  int vertices_each;
+};
+
+struct FitArguments {
+  TreeView tree;
+  bool motion;
+  const float* supports;  // rows_of(motion) used of kSupportStride floats, one record per vertex of `members`
+  const int* members;     // members_each rows of 8 a leaf block: the records whose union is the box of a lane
+  int members_each;
+};
+inline constexpr int kSupportStride = 16;  // 8 at t = 0, then 8 at t = 1, the last two of each unused
+
+struct TraverseArguments {
+  TreeView query, tree;
+  bool motion;
+  bool self;                // one tree against itself: each unordered pair once, smaller id first
+  int rounded_axes;         // bit i: equal floats on axis i need not be equal doubles
+  std::size_t first, last;  // leaf blocks of `query`
+  // Decides pairs that only touch in float.
+  bool (*touches)(const void* context, int a, int b);
+  const void* touches_context;
+  void (*consume)(void* context, const IdPair* pairs, std::size_t count);
+  void* consume_context;
+};
+
+#define ONSET_DECLARE_BVH_KERNEL(isa)                                                                \
+  namespace isa {                                                                                    \
+  void fit_leaves(const FitArguments& arguments, std::size_t first, std::size_t last);               \
+  void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, std::size_t last); \
+  void traverse(const TraverseArguments& arguments);                                                 \
+  }
+ONSET_DECLARE_BVH_KERNEL(bvh_scalar)
+ONSET_DECLARE_BVH_KERNEL(bvh_avx2)
+#undef ONSET_DECLARE_BVH_KERNEL
+
+}  // namespace onset

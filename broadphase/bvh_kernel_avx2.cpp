@@ -1,0 +1,3 @@
+#define ONSET_KERNEL bvh_avx2
+
+#include "broadphase/bvh_kernel.inl"
