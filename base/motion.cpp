@@ -98,11 +98,15 @@ Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t
       x[3] = x[7] = 0;
     }
   });
+  finish_motion(m);
+  return m;
+}
+
+void finish_motion(Motion& m) {
   find_bad_vertex(m);
-  if (m.status != Outcome::free || num_vertices == 0) return m;
+  if (m.status != Outcome::free || m.num_vertices == 0) return;
   m.axes = canonical_axes(m);
   store_permuted(m);
-  return m;
 }
 
 double Extents::largest() const {

@@ -31,6 +31,9 @@ struct Motion {
 // Throws std::invalid_argument when a row count differs from num_vertices or there are not 3 columns.
 Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1);
 
+// Checks the positions already stored in m.x and brings the axes into canonical order.
+void finish_motion(Motion& m);
+
 // Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j| (edge-edge) that a pair
 // with overlapping swept boxes can have (each side of the pair spans its swept extent, and the boxes are at most `gap`
 // apart): R <= w(A) + w(B) + gap.

@@ -13,6 +13,10 @@ namespace onset {
 // f(first, last) over [0, count) in chunks of about `grain`, in the current arena.
 template <class F>
 void parallel_ranges(std::size_t count, std::size_t grain, F&& f) {
+  if (count <= grain) {
+    if (count > 0) f(std::size_t(0), count);
+    return;
+  }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                     [&](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
 }

@@ -1,0 +1,326 @@
+// Kernel text: directional conservative advancement in double lanes.
+//
+// At time t take the direction that separates the hull of the corners best, certify as long a time as it, its linear
+// continuation, or the pair's own normal (a cubic) can, and go on from there. Stop rule, with D0 the certified excess of the distance
+// over d at t = 0: delta = max(min(tolerance, D0/4), 16 E7), every certificate demands d + delta/2, contact iff a witness
+// point shows a distance of at most d + delta. Hence toi is never late, the pair keeps d + delta/2 until toi, and a pair that
+// never loses 3/4 of its initial gap is never reported, whatever the tolerance.
+
+constexpr double kU = 0x1p-53;
+
+// All that a lane carries. Lengths are scaled so that the largest corner component is in [1, 2).
+template <class V, int K>
+struct State {
+  V c[2][K][3];          // corners at both ends
+  V f[4];                // Bernstein coefficients of n(s).c_k(s), n = e1 x e2, the same for every corner k
+  V f_error, n_largest;  // bound of their rounding after subdivision; upper bound of |n(s)|
+  V rho;                 // |R|, rounded up
+  V d, delta;
+  V unit;
+  V t, t_prev, w_prev[3];
+  V dist;                // upper bound of the distance at t
+  V slow, checks;
+};
+template <int K>
+constexpr int kFields = sizeof(State<D4, K>) / (4 * sizeof(double));
+
+template <class V>
+inline V norm_factor(const V (&w)[3], bool maximum_norm) {  // dual norm of a direction of Euclidean length <= 1 + 4u
+  return maximum_norm ? (abs(w[0]) + abs(w[1])) + abs(w[2]) : one<V>();
+}
+template <class V>
+inline V measure(const V (&f)[3], V f2, bool maximum_norm) {
+  return maximum_norm ? max(abs(f[0]), max(abs(f[1]), abs(f[2]))) : sqrt(f2);
+}
+template <class V, int K>
+inline V separation_wanted(const State<V, K>& s) {
+  return (s.d + V::all(0.5) * s.delta) * V::all(1 + 0x1p-49);
+}
+
+// f0 = n00.c0, f1 = (n00.c1 + (n01 + n10).c0)/3, f2 = (n11.c0 + (n01 + n10).c1)/3, f3 = n11.c1 with n_ij = e1(t_i) x e2(t_j).
+// Rounding, in units of u sum_a P_a R_a with P = the products of largest |e1| and |e2| components and R of the corner used:
+// inputs 1 + 1, product 1, difference 1 | sum 1 | corner 1, product 1, sums 2 | sum 1, division 1, weights: 12 in all;
+// subdivision at t three lerps of 3: 21; 24 covers second order. The corner of smallest R keeps tiny gaps accurate.
+template <class V, int K>
+inline void set_cubic(State<V, K>& s, const V (&e1)[2][3], const V (&e2)[2][3], bool maximum_norm) {
+  V product[3], largest1[3], largest2[3];
+  for (int a = 0; a < 3; ++a) {
+    largest1[a] = max(abs(e1[0][a]), abs(e1[1][a]));
+    largest2[a] = max(abs(e2[0][a]), abs(e2[1][a]));
+  }
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    product[a] = largest1[b] * largest2[c] + largest1[c] * largest2[b];
+  }
+  V bound, corner[2][3];
+  for (int k = 0; k < K; ++k) {
+    V r[3];
+    for (int a = 0; a < 3; ++a) r[a] = max(abs(s.c[0][k][a]), abs(s.c[1][k][a]));
+    const V here = dot(product, r);
+    const auto better = k == 0 ? here >= zero<V>() : here < bound;
+    bound = k == 0 ? here : min(here, bound);
+    for (int end = 0; end < 2; ++end)
+      for (int a = 0; a < 3; ++a) corner[end][a] = k == 0 ? s.c[end][k][a] : select(better, s.c[end][k][a], corner[end][a]);
+  }
+  V n00[3], n01[3], n10[3], n11[3], mixed[3];
+  cross(e1[0], e2[0], n00);
+  cross(e1[0], e2[1], n01);
+  cross(e1[1], e2[0], n10);
+  cross(e1[1], e2[1], n11);
+  for (int a = 0; a < 3; ++a) mixed[a] = n01[a] + n10[a];
+  const V third = V::all(3);
+  s.f[0] = dot(n00, corner[0]);
+  s.f[1] = (dot(n00, corner[1]) + dot(mixed, corner[0])) / third;
+  s.f[2] = (dot(n11, corner[0]) + dot(mixed, corner[1])) / third;
+  s.f[3] = dot(n11, corner[1]);
+  s.f_error = V::all(24 * kU) * bound + V::all(0x1p-900);
+  const V half = V::all(0.5);
+  const V middle[3] = {half * mixed[0], half * mixed[1], half * mixed[2]};
+  const auto size = [&](const V(&n)[3]) {
+    return maximum_norm ? (abs(n[0]) + abs(n[1])) + abs(n[2]) : sqrt(dot(n, n));
+  };
+  s.n_largest = max(size(n00), max(size(middle), size(n11))) * V::all(1 + 0x1p-46) + V::all(0x1p-500);
+}
+
+// What is seen at time t: the best direction and an upper bound of the distance.
+template <class V, int K>
+inline void look(const State<V, K>& s, V t, bool maximum_norm, V (&w)[3], V& dist) {
+  V c[K][3], e1[3], e2[3], f[3];
+  for (int k = 0; k < K; ++k)
+    for (int a = 0; a < 3; ++a) c[k][a] = lerp(s.c[0][k][a], s.c[1][k][a], t);
+  const Nearest<V> nearest = nearest_on_boundary(c);
+  spanning_edges(c, e1, e2);
+  best_direction(c, nearest, e1, e2, w);
+  interior_point(c, e1, e2, f);
+  // A witness F(t, u, v) evaluated from the corners errs by at most 10u R per axis (lerp 1 + 3, two convex sums 3 each), so
+  // its length by 10u rho; 16u covers the square root and sums.
+  const V shortest = min(measure(f, dot(f, f), maximum_norm), measure(nearest.f, nearest.f2, maximum_norm));
+  dist = shortest * V::all(1 + 0x1p-50) + V::all(16 * kU) * s.rho;
+}
+
+// The time until which the direction w at t, held fixed, certifies; and its products with the corners.
+template <class V, int K>
+inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm, V (&g0)[K], V (&g1)[K]) {
+  for (int k = 0; k < K; ++k) g0[k] = dot(w, s.c[0][k]), g1[k] = dot(w, s.c[1][k]);
+  const V thr = V::all(4.25 * kU) * s.rho + separation_wanted(s) * norm_factor(w, maximum_norm) * V::all(1 + 0x1p-49);
+  return fixed_certificate(g0, g1, thr, s.t);
+}
+
+// The same with the direction turning on as it did since the last time: w(s) from w at t to w_b at tb, |w_b| bounded by the
+// choice of tb. phi_k = w(s).c_k(s) is a quadratic with Bernstein coefficients b0, b1, b2, each within 8u max(|w|, |w_b|) rho.
+template <class V, int K>
+inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm, const V (&g0)[K], const V (&g1)[K]) {
+  V turned[3], wb[3];
+  for (int a = 0; a < 3; ++a) turned[a] = w[a] - s.w_prev[a];
+  const V largest = max(abs(turned[0]), max(abs(turned[1]), abs(turned[2])));
+  const V since = s.t - s.t_prev;
+  const V ahead = min(since / max(largest, V::all(0x1p-60)), one<V>() - s.t);
+  const V tb = min(s.t + ahead, one<V>());
+  const V rate = (tb - s.t) / since;
+  for (int a = 0; a < 3; ++a) wb[a] = w[a] + rate * turned[a];
+  const V up = V::all(1 + 0x1p-48);
+  const V size_b = maximum_norm ? norm_factor(wb, true) : sqrt(dot(wb, wb));
+  const V size_a = norm_factor(w, maximum_norm);
+  const V error = V::all(8.25 * kU) * s.rho * max(max(sqrt(dot(wb, wb)), one<V>()), one<V>()) * up;
+  const V tau = separation_wanted(s);
+  const V m0 = (error + tau * size_a) * up, m2 = (error + tau * size_b) * up;
+  const V m1 = V::all(0.5) * (m0 + m2) * up;
+  V L = one<V>();
+  for (int k = 0; k < K; ++k) {
+    const V h0 = dot(wb, s.c[0][k]), h1 = dot(wb, s.c[1][k]);
+    const V b0 = lerp(g0[k], g1[k], s.t), b2 = lerp(h0, h1, tb);
+    const V b1 = V::all(0.5) * (lerp(g0[k], g1[k], tb) + lerp(h0, h1, s.t));
+    L = min(first_root(b0 - m0, b1 - m1, b2 - m2), L);
+  }
+  const V reached = select(L >= one<V>(), tb, (s.t + L * (tb - s.t)) * V::all(1 - 0x1p-50));
+  const auto turning = (s.t_prev >= zero<V>()) & (since > zero<V>()) & (L > zero<V>());
+  return certified<V>(turning, select(reached >= one<V>(), V::all(2), reached));
+}
+
+// The same with the pair's own normal n(s): one cubic for all corners.
+template <class V, int K>
+inline V certify_normal(const State<V, K>& s) {
+  V x[4] = {s.f[0], s.f[1], s.f[2], s.f[3]};
+  right_part(x, s.t);
+  const V margin = (s.f_error + separation_wanted(s) * s.n_largest) * V::all(1 + 0x1p-48);
+  const auto negative = x[0] < zero<V>();
+  for (V& xi : x) xi = select(negative, zero<V>() - xi, xi) - margin;
+  const V lambda = hull_step(x);
+  const V reached = (s.t + lambda * (one<V>() - s.t)) * V::all(1 - 0x1p-50);
+  return certified<V>(lambda > zero<V>(), select(lambda >= one<V>(), V::all(2), reached));
+}
+
+// One check: decides lanes in contact, moves the others on. Returns the masks of contact and of lanes without progress.
+template <class V, int K>
+struct Check {
+  typename V::Mask contact, stuck;
+};
+template <class V, int K>
+inline Check<V, K> advance(State<V, K>& s, const V (&w)[3], V dist, bool maximum_norm) {
+  V g0[K], g1[K];
+  const V fixed = certify_fixed(s, w, maximum_norm, g0, g1);
+  const V moving = certify_moving(s, w, maximum_norm, g0, g1);
+  const V next = max(fixed, max(moving, certify_normal(s)));
+  Check<V, K> r;
+  r.contact = dist - s.d <= s.delta;
+  const auto crawls = (dist > V::all(0.7) * s.dist) & (next - s.t < V::all(0.125) * (one<V>() - s.t));
+  s.slow = select(crawls, s.slow + one<V>(), max(s.slow - one<V>(), zero<V>()));
+  r.stuck = (next <= s.t) | (s.slow >= V::all(4));
+  s.dist = dist;
+  s.checks = s.checks + one<V>();
+  const auto moves = next > s.t;
+  for (int a = 0; a < 3; ++a) s.w_prev[a] = w[a];
+  s.t_prev = select(moves, s.t, s.t_prev);
+  s.t = select(moves & (dist - s.d > s.delta), next, s.t);
+  return r;
+}
+
+// Corners, scale, bounds and cubic of four pairs.
+template <int K>
+inline void set_up(const KernelPairs& pairs, const int* rows, State<D4, K>& s) {
+  using V = D4;
+  Points<V> p;
+  gather(pairs, rows, p);
+  V e1[2][3], e2[2][3];
+  for (int end = 0; end < 2; ++end) {
+    corners_of(p.p[end], s.c[end]);
+    edges_of<V, K>(p.p[end], e1[end], e2[end]);
+  }
+  const V scale = inverse_power_of_two(largest_component(s.c));
+  for (int end = 0; end < 2; ++end)
+    for (int a = 0; a < 3; ++a) {
+      for (int k = 0; k < K; ++k) s.c[end][k][a] = s.c[end][k][a] * scale;
+      e1[end][a] = e1[end][a] * scale;
+      e2[end][a] = e2[end][a] * scale;
+    }
+  V R[3];
+  for (int a = 0; a < 3; ++a) {
+    R[a] = abs(s.c[0][0][a]);
+    for (int end = 0; end < 2; ++end)
+      for (int k = 0; k < K; ++k) R[a] = max(abs(s.c[end][k][a]), R[a]);
+  }
+  s.rho = sqrt(dot(R, R)) * V::all(1 + 0x1p-50);
+  double d[4];
+  for (int l = 0; l < 4; ++l) d[l] = pairs.separation[rows[l]];
+  s.d = V::load(d) * scale;
+  s.delta = V::all(pairs.tolerance) * scale;
+  s.unit = one<V>() / scale;
+  s.t = s.slow = s.checks = zero<V>();
+  s.t_prev = V::all(-1);
+  s.dist = V::all(0x1p1000);
+  for (V& x : s.w_prev) x = zero<V>();
+  set_cubic(s, e1, e2, pairs.maximum_norm);
+}
+
+// One pair's state on its own, field by field.
+template <int K>
+struct Record {
+  double field[kFields<K>];
+};
+template <int K>
+inline void take_lane(const State<D4, K>& s, int lane, Record<K>& r) {
+  const double* from = reinterpret_cast<const double*>(&s);
+  for (int i = 0; i < kFields<K>; ++i) r.field[i] = from[4 * i + lane];
+}
+template <int K>
+inline void put_lane(State<D4, K>& s, int lane, const Record<K>& r) {
+  double* to = reinterpret_cast<double*>(&s);
+  for (int i = 0; i < kFields<K>; ++i) to[4 * i + lane] = r.field[i];
+}
+
+template <int K>
+inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResult& r) {
+  const auto at = [&](const D4& v) { return reinterpret_cast<const double*>(&v)[lane]; };
+  r.t = at(s.t) < 1 ? at(s.t) : 1;
+  r.distance = at(s.dist);
+  r.delta = at(s.delta);
+  r.unit = at(s.unit);
+  r.checks = static_cast<long long>(at(s.checks));
+  r.verdict = verdict;
+}
+
+// The verdict of each lane after a check, or -1 to go on.
+template <int K>
+inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const KernelPairs& pairs, int (&verdict)[4]) {
+  const int contact = bits(check.contact), stuck = bits(check.stuck);
+  const int done = bits(s.t >= D4::all(1)), beyond = bits(s.t > D4::all(pairs.horizon));
+  const int spent = bits(s.checks >= D4::all(static_cast<double>(pairs.max_checks)));
+  for (int l = 0; l < 4; ++l) {
+    const int bit = 1 << l;
+    verdict[l] = -1;
+    if ((done | beyond) & bit) verdict[l] = int(Verdict::free);
+    else if (contact & bit) verdict[l] = int(Verdict::contact);
+    else if (spent & bit) verdict[l] = int(Verdict::budget);
+    else if (stuck & bit) verdict[l] = int(Verdict::stalled);
+  }
+}
+
+// The first check, at t = 0, of four pairs: fixes delta, finds pairs that start within d.
+template <int K>
+inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) {
+  using V = D4;
+  const bool maximum_norm = pairs.maximum_norm;
+  V w[3], dist;
+  look(s, s.t, maximum_norm, w, dist);
+  const V e7 = V::all(7.25 * kU) * s.rho;
+  // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 4u) for the Euclidean norm.
+  const V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
+  s.delta = max(min(s.delta, V::all(0.25) * apart), V::all(16) * e7);
+  const Check<V, K> check = advance(s, w, dist, maximum_norm);
+  // Never a zero from a start that is apart: where the full demand of d + delta/2 certifies nothing, d alone does.
+  V g0[K], g1[K];
+  for (int k = 0; k < K; ++k) g0[k] = dot(w, s.c[0][k]), g1[k] = dot(w, s.c[1][k]);
+  const V thr = V::all(4.25 * kU) * s.rho + s.d * norm_factor(w, maximum_norm) * V::all(1 + 0x1p-49);
+  s.t = max(fixed_certificate(g0, g1, thr, zero<V>()), s.t);
+  judge(s, check, pairs, verdict);
+  const int positive = bits(apart > zero<V>());
+  for (int l = 0; l < 4; ++l)
+    if (!(positive >> l & 1)) verdict[l] = int(Verdict::initial);
+}
+
+template <int K>
+inline void advance_all(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+  constexpr int kQueue = 64;
+  Record<K> queue[kQueue + 4];
+  int owner[kQueue + 4];
+  int queued = 0, next = 0;
+  State<D4, K> lanes = {};
+  int lane_owner[4] = {-1, -1, -1, -1}, active = 0;
+  while (next < count || queued > 0 || active > 0) {
+    while (next < count && queued < kQueue) {  // first checks, four at a time
+      int rows[4];
+      for (int l = 0; l < 4; ++l) rows[l] = subset[next + l < count ? next + l : count - 1];
+      State<D4, K> s;
+      int verdict[4];
+      set_up(pairs, rows, s);
+      first_check(pairs, s, verdict);
+      for (int l = 0; l < 4 && next < count; ++l, ++next) {
+        if (verdict[l] < 0) {
+          take_lane(s, l, queue[queued]);
+          owner[queued++] = next;
+        } else {
+          report(s, l, Verdict(verdict[l]), results[next]);
+        }
+      }
+    }
+    for (int l = 0; l < 4; ++l)
+      if (lane_owner[l] < 0 && queued > 0) {
+        --queued;
+        put_lane(lanes, l, queue[queued]);
+        lane_owner[l] = owner[queued];
+        ++active;
+      }
+    if (active == 0) continue;
+    D4 w[3], dist;
+    look(lanes, lanes.t, pairs.maximum_norm, w, dist);
+    const Check<D4, K> check = advance(lanes, w, dist, pairs.maximum_norm);
+    int verdict[4];
+    judge(lanes, check, pairs, verdict);
+    for (int l = 0; l < 4; ++l)
+      if (lane_owner[l] >= 0 && verdict[l] >= 0) {
+        report(lanes, l, Verdict(verdict[l]), results[lane_owner[l]]);
+        lane_owner[l] = -1;
+        --active;
+      }
+  }
+}

@@ -1,0 +1,30 @@
+// The whole kernel text, in the order it builds up; included once per instruction set by kernel_scalar.cpp and kernel_avx2.cpp.
+#include "base/pack.hpp"
+#include "narrowphase/kernel.hpp"
+
+namespace onset {
+namespace ONSET_KERNEL {
+namespace {
+
+#include "narrowphase/direction.inl"
+
+#include "narrowphase/certificates.inl"
+
+#include "narrowphase/gather.inl"
+
+#include "narrowphase/advance.inl"
+
+#include "narrowphase/cull.inl"
+
+int cull_vertex_face(const KernelPairs& pairs, int* survivors) { return cull_all<3>(pairs, survivors); }
+int cull_edge_edge(const KernelPairs& pairs, int* survivors) { return cull_all<4>(pairs, survivors); }
+void advance_vertex_face(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+  advance_all<3>(pairs, subset, count, results);
+}
+void advance_edge_edge(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+  advance_all<4>(pairs, subset, count, results);
+}
+
+}  // namespace
+}  // namespace ONSET_KERNEL
+}  // namespace onset

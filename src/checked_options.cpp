@@ -1,0 +1,49 @@
+#include "src/checked_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace onset {
+namespace {
+
+[[noreturn]] void reject(const char* name, double value, const char* wanted) {
+  std::ostringstream s;
+  s.precision(17);
+  s << name << " is " << value << "; it must be " << wanted;
+  throw std::invalid_argument(s.str());
+}
+
+}  // namespace
+
+void check(const Options& o) {
+  if (o.tolerance && !(*o.tolerance > 0 && std::isfinite(*o.tolerance)))
+    reject("tolerance", *o.tolerance, "a finite number > 0");
+  if (!(o.relative_tolerance > 0 && std::isfinite(o.relative_tolerance)))
+    reject("relative_tolerance", o.relative_tolerance, "a finite number > 0");
+  if (!(o.min_separation >= 0 && o.min_separation <= kMaxCoordinate))
+    reject("min_separation", o.min_separation, "a number >= 0, at most 2^1020");
+  if (o.max_checks < 1) reject("max_checks", double(o.max_checks), "at least 1");
+  if (o.threads < 0) reject("threads", o.threads, "at least 1, or 0 for the caller's arena");
+}
+
+double largest_separation(const MeshData& mesh, const Options& options) {
+  if (mesh.thickness.empty()) return options.min_separation;
+  const double thickest = *std::max_element(mesh.thickness.begin(), mesh.thickness.end());
+  return (options.min_separation + 2 * thickest) * (1 + 0x1p-51);
+}
+
+double absolute_tolerance(const Options& options, double extent) {
+  return options.tolerance ? *options.tolerance : std::max(options.relative_tolerance * extent, 0x1p-1074);
+}
+
+void describe_accuracy(const Motion& motion, const Extents& extents, const Options& options, Stats& stats) {
+  stats.extent = extents.largest();
+  stats.tolerance = absolute_tolerance(options, stats.extent);
+  for (int a = 0; a < 3; ++a)  // 8u R + 4 eta: covers corners evaluated at any time
+    stats.error_bound[std::size_t(motion.axes[std::size_t(a)])] =
+        0x1p-50 * std::max(extents.vertex_face[std::size_t(a)], extents.edge_edge[std::size_t(a)]) + 4 * 0x1p-1074;
+}
+
+}  // namespace onset

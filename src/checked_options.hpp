@@ -1,0 +1,22 @@
+// Options checked once, and what follows from them for a motion.
+#pragma once
+
+#include "base/mesh_data.hpp"
+#include "base/motion.hpp"
+#include "onset/options.hpp"
+
+namespace onset {
+
+// Throws std::invalid_argument naming the option and its value.
+void check(const Options& options);
+
+// The distance, rounded up, that the thickest pair must keep.
+double largest_separation(const MeshData& mesh, const Options& options);
+
+// Options::tolerance, or the relative one times R (> 0 in any case).
+double absolute_tolerance(const Options& options, double extent);
+
+// Fills tolerance, extent and error_bound.
+void describe_accuracy(const Motion& motion, const Extents& extents, const Options& options, Stats& stats);
+
+}  // namespace onset

@@ -1,0 +1,102 @@
+#include "src/pass.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/parallel.hpp"
+
+namespace onset {
+namespace {
+
+constexpr std::size_t kBlocksATask = 16;
+
+std::tuple<int, int, int> identity(const FoundPair& f) { return {int(f.kind), f.result.pair.a, f.result.pair.b}; }
+
+class Pass {
+ public:
+  Pass(const BroadPhase& broad, const NarrowPhase& narrow, Keep keep, double horizon)
+      : broad_(broad), narrow_(narrow), keep_(keep), horizon_(horizon) {}
+
+  void run(PairKind kind, NarrowPhaseStats& stats) {
+    parallel_ranges(broad_.blocks(kind), kBlocksATask, [&](std::size_t first, std::size_t last) {
+      if (ended()) return;
+      Task task{*this, kind, {}, {}};
+      broad_.traverse(kind, first, last, {&task, &Task::consume});
+      merge(kind, task, stats);
+    });
+  }
+
+  std::vector<FoundPair> take() {
+    if (keep_ == Keep::all) parallel_sort(found_.begin(), found_.end(), before);
+    return std::move(found_);
+  }
+
+ private:
+  struct Task {
+    Pass& pass;
+    PairKind kind;
+    NarrowPhaseScratch scratch;
+    std::vector<PairResult> results;
+
+    static void consume(void* context, const IdPair* pairs, std::size_t count) {
+      auto& task = *static_cast<Task*>(context);
+      if (task.pass.ended()) return;
+      task.pass.narrow_.process(task.kind, pairs, count, task.pass.horizon_.load(std::memory_order_relaxed),
+                                task.scratch, task.results);
+      if (task.pass.keep_ != Keep::all) task.pass.shrink_horizon(task);
+    }
+  };
+
+  bool ended() const { return keep_ == Keep::any && horizon_.load(std::memory_order_relaxed) < 1; }
+
+  // Keeps the task's first limiting pair only. The horizon is only ever an early-out: results do not depend on it.
+  void shrink_horizon(Task& task) {
+    if (task.results.empty()) return;
+    std::size_t best = 0;
+    const auto as_found = [&](std::size_t i) { return FoundPair{task.kind, task.results[i]}; };
+    for (std::size_t i = 1; i < task.results.size(); ++i)
+      if (limits_before(as_found(i), as_found(best))) best = i;
+    task.results[0] = task.results[best];
+    task.results.resize(1);
+    const double limit = task.results[0].step_limit;
+    double now = horizon_.load(std::memory_order_relaxed);
+    while (limit < now && !horizon_.compare_exchange_weak(now, limit, std::memory_order_relaxed)) {
+    }
+  }
+
+  void merge(PairKind kind, const Task& task, NarrowPhaseStats& stats) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stats.add(task.scratch.stats);
+    for (const PairResult& r : task.results) {
+      const FoundPair f{kind, r};
+      if (keep_ == Keep::all || found_.empty()) found_.push_back(f);
+      else if (limits_before(f, found_[0])) found_[0] = f;
+    }
+  }
+
+  const BroadPhase& broad_;
+  const NarrowPhase& narrow_;
+  const Keep keep_;
+  std::atomic<double> horizon_;
+  std::mutex mutex_;
+  std::vector<FoundPair> found_;
+};
+
+}  // namespace
+
+bool before(const FoundPair& x, const FoundPair& y) { return identity(x) < identity(y); }
+
+bool limits_before(const FoundPair& x, const FoundPair& y) {
+  return x.result.step_limit != y.result.step_limit ? x.result.step_limit < y.result.step_limit : before(x, y);
+}
+
+PassResult run_pass(const BroadPhase& broad, const NarrowPhase& narrow, Keep keep, double horizon) {
+  PassResult result;
+  Pass pass(broad, narrow, keep, horizon);
+  pass.run(PairKind::vertex_face, result.vertex_face);
+  pass.run(PairKind::edge_edge, result.edge_edge);
+  result.found = pass.take();
+  return result;
+}
+
+}  // namespace onset

@@ -1,0 +1,177 @@
+#include "onset/pipeline.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+#include "base/dispatch.hpp"
+#include "base/parallel.hpp"
+#include "src/checked_options.hpp"
+#include "src/pass.hpp"
+
+namespace onset {
+namespace {
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// What every call sets up: the motion, its accuracy and the broad phase.
+struct Scene {
+  Motion motion;
+  std::unique_ptr<BroadPhase> broad;
+  Clock clock;
+
+  // Leaves `broad` empty where the motion is not usable.
+  Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, BoxTest test,
+        Stats& stats) {
+    const MeshData& data = mesh.data();
+    motion = make_motion(data.num_vertices, x_t0, x_t1);
+    stats.threads = current_threads();
+    stats.kernel = kernel_name(resolve_kernel(options.kernel));
+    if (motion.status != Outcome::free) return;
+    describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options, stats);
+    broad = make_broad_phase(options.broad_phase,
+                             {data, motion, 0.5 * options.min_separation, 1.0, test, options.kernel});
+    stats.broad_phase = broad->name();
+    stats.seconds_broad = clock.seconds();
+  }
+};
+
+void copy_counts(const PassResult& pass, Stats& stats) {
+  const auto both = [&](std::int64_t NarrowPhaseStats::*field) {
+    return PairCounts{pass.vertex_face.*field, pass.edge_edge.*field};
+  };
+  stats.candidates = both(&NarrowPhaseStats::candidates);
+  stats.after_culls = both(&NarrowPhaseStats::after_culls);
+  stats.inclusion = both(&NarrowPhaseStats::inclusion);
+  stats.contacts = both(&NarrowPhaseStats::contacts);
+  stats.budget = both(&NarrowPhaseStats::budget);
+  stats.checks = both(&NarrowPhaseStats::checks).total();
+  stats.max_checks_of_a_pair = std::max(pass.vertex_face.most_checks, pass.edge_edge.most_checks);
+  stats.achieved_tolerance = std::max(pass.vertex_face.achieved_tolerance, pass.edge_edge.achieved_tolerance);
+}
+
+PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Stats& stats) {
+  const double begun = scene.clock.seconds();
+  const NarrowPhase narrow({mesh.data(), scene.motion, stats.tolerance, options});
+  PassResult pass = run_pass(*scene.broad, narrow, keep, 1.0);
+  copy_counts(pass, stats);
+  stats.seconds_narrow = scene.clock.seconds() - begun;
+  stats.seconds_total = scene.clock.seconds();
+  return pass;
+}
+
+Pair to_pair(const Mesh& mesh, const FoundPair& f) {
+  return {f.kind, f.result.pair.a, f.result.pair.b, pair_vertices(mesh.data(), f.kind, f.result.pair)};
+}
+
+StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
+                         Keep keep) {
+  StepResult r;
+  Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, r.stats);
+  r.outcome = scene.motion.status;
+  r.vertex = scene.motion.bad_vertex;
+  if (r.outcome != Outcome::free) return r;
+  const PassResult pass = run(mesh, scene, options, keep, r.stats);
+  r.step = 1;
+  if (pass.found.empty() || pass.found[0].result.step_limit >= 1) return r;
+  const PairResult& limiting = pass.found[0].result;
+  r.step = limiting.step_limit;
+  // A pair that parts at the start and is met again later limits the step as a contact.
+  r.outcome = limiting.outcome == Outcome::initial_separating ? Outcome::contact : limiting.outcome;
+  r.limiting = to_pair(mesh, pass.found[0]);
+  return r;
+}
+
+}  // namespace
+
+StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                                           const Options& options) {
+  check(options);
+  StepResult r;
+  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::limiting); });
+  return r;
+}
+
+bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options) {
+  check(options);
+  StepResult r;
+  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::any); });
+  return r.outcome == Outcome::free;
+}
+
+ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options) {
+  check(options);
+  ActiveSet set;
+  in_arena(options.threads, [&] {
+    Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, set.stats);
+    set.outcome = scene.motion.status;
+    set.vertex = scene.motion.bad_vertex;
+    if (set.outcome != Outcome::free) return;
+    for (const FoundPair& f : run(mesh, scene, options, Keep::all, set.stats).found) {
+      const Pair pair = to_pair(mesh, f);
+      set.kind.push_back(pair.kind);
+      set.a.push_back(pair.a);
+      set.b.push_back(pair.b);
+      set.vertices.push_back(pair.vertices);
+      set.toi.push_back(f.result.toi);
+      set.status.push_back(f.result.outcome);
+    }
+    if (set.size() > 0) set.outcome = Outcome::contact;
+    set.stats.seconds_total = scene.clock.seconds();
+  });
+  return set;
+}
+
+namespace {
+
+void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::vector<std::array<int, 2>>& pairs,
+                     std::int64_t& count) {
+  std::mutex mutex;
+  struct Task {
+    bool list;
+    std::int64_t count;
+    std::vector<std::array<int, 2>> pairs;
+    static void consume(void* context, const IdPair* p, std::size_t n) {
+      auto& task = *static_cast<Task*>(context);
+      task.count += std::int64_t(n);
+      if (task.list)
+        for (std::size_t i = 0; i < n; ++i) task.pairs.push_back({p[i].a, p[i].b});
+    }
+  };
+  parallel_ranges(broad.blocks(kind), 64, [&](std::size_t first, std::size_t last) {
+    Task task{list, 0, {}};
+    broad.traverse(kind, first, last, {&task, &Task::consume});
+    const std::lock_guard<std::mutex> lock(mutex);
+    count += task.count;
+    pairs.insert(pairs.end(), task.pairs.begin(), task.pairs.end());
+  });
+  parallel_sort(pairs.begin(), pairs.end(), [](const auto& p, const auto& q) { return p < q; });
+}
+
+}  // namespace
+
+Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
+                              bool list) {
+  check(options);
+  Candidates c;
+  in_arena(options.threads, [&] {
+    Scene scene(mesh, x_t0, x_t1, options, BoxTest::swept, c.stats);
+    c.outcome = scene.motion.status;
+    c.vertex = scene.motion.bad_vertex;
+    if (c.outcome != Outcome::free) return;
+    list_candidates(*scene.broad, PairKind::vertex_face, list, c.vertex_face, c.counts.vertex_face);
+    list_candidates(*scene.broad, PairKind::edge_edge, list, c.edge_edge, c.counts.edge_edge);
+    c.stats.swept = c.counts;
+    c.stats.seconds_total = scene.clock.seconds();
+    c.stats.seconds_broad = c.stats.seconds_total;
+  });
+  return c;
+}
+
+}  // namespace onset

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+
+#include "narrowphase/corners.hpp"
+#include "narrowphase/narrow_phase.hpp"
+#include "onset/query.hpp"
+#include "src/checked_options.hpp"
+
+namespace onset {
+namespace {
+
+MeshData single_pair(PairKind kind) {
+  MeshData mesh;
+  mesh.num_vertices = 4;
+  if (kind == PairKind::vertex_face) mesh.faces = {{1, 2, 3}};
+  else mesh.edges = {{0, 1}, {2, 3}};
+  return mesh;
+}
+
+QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::array<Point, 4>& t1,
+                  const Options& options) {
+  static const MeshData kMeshes[] = {single_pair(PairKind::vertex_face), single_pair(PairKind::edge_edge)};
+  check(options);
+  Motion motion;
+  motion.num_vertices = 4;
+  motion.x = AlignedArray<double>(4 * kMotionStride);
+  for (std::size_t v = 0; v < 4; ++v)
+    for (std::size_t a = 0; a < 4; ++a) {
+      motion.x[kMotionStride * v + a] = a < 3 ? t0[v][a] : 0;
+      motion.x[kMotionStride * v + 4 + a] = a < 3 ? t1[v][a] : 0;
+    }
+  finish_motion(motion);
+  QueryResult r;
+  if (motion.status != Outcome::free) {
+    r.outcome = motion.status;
+    r.toi = 0;
+    return r;
+  }
+  const MeshData& mesh = kMeshes[kind == PairKind::edge_edge];
+  const int vertices[4] = {0, 1, 2, 3};
+  const Corners corners = make_corners(kind, motion, vertices);
+  double largest = 0;
+  for (const auto& end : corners.c)
+    for (const auto& corner : end)
+      for (const double x : corner) largest = std::max(largest, std::fabs(x));
+  const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, largest * corners.unit), options});
+  NarrowPhaseScratch scratch;
+  std::vector<PairResult> found;
+  const IdPair pair = kind == PairKind::vertex_face ? IdPair{0, 0} : IdPair{0, 1};
+  narrow.process(kind, &pair, 1, 1.0, scratch, found);
+  r.checks = scratch.stats.checks;
+  if (found.empty()) return r;
+  r.outcome = found[0].outcome;
+  r.toi = found[0].toi;
+  r.tolerance = found[0].tolerance;
+  return r;
+}
+
+}  // namespace
+
+QueryResult vertex_face_ccd(const VertexFaceQuery& q, const Options& options) {
+  return solve(PairKind::vertex_face, q.t0, q.t1, options);
+}
+QueryResult edge_edge_ccd(const EdgeEdgeQuery& q, const Options& options) {
+  return solve(PairKind::edge_edge, q.t0, q.t1, options);
+}
+
+}  // namespace onset
