@@ -41,7 +41,10 @@ CLI::Option* add(CLI::App& command, const std::string& name, const std::string& 
 
 void add_choice(CLI::App& command, const std::string& name, std::string& value,
                 const std::vector<std::string>& choices, const std::string& help) {
-  command.add_option(name, value, help)->check(CLI::IsMember(choices))->type_name("")->capture_default_str();
+  command.add_option(name, value, help)
+      ->check(CLI::IsMember(choices))
+      ->type_name("NAME")
+      ->capture_default_str();
 }
 
 void add_accuracy(CLI::App& command, onset::Options& o) {

@@ -143,7 +143,7 @@ void add_queries(CLI::App& app, Run& run) {
       ->add_option("--kind", inputs->kind,
                    "Kind of all queries; otherwise each path tells: vertex-face, vf or edge-edge, ee")
       ->check(CLI::IsMember({"vf", "ee"}))
-      ->type_name("");
+      ->type_name("NAME");
   add_common_options(*command, *inputs, "file,index,kind,outcome,toi");
   command->footer(
       "One query is asked after another, for the times are those of single queries: --threads and "

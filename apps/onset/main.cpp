@@ -17,10 +17,11 @@ int fail(app::ExitCode code, std::string message) {
   return code;
 }
 
+// After the subcommands, which would take the examples over.
 void describe(CLI::App& app) {
   app.name("onset");
   app.set_version_flag("--version", "onset " ONSET_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer(
       "Examples:\n"
       "  onset demo                                   a scene of its own, no files needed\n"
@@ -36,14 +37,15 @@ void describe(CLI::App& app) {
 int main(int argc, char** argv) {
   CLI::App app("Conservative continuous collision detection: when does a moving mesh first touch itself?");
   app::Run run;
-  describe(app);
   app::add_step(app, run);
   app::add_active_set(app, run);
   app::add_candidates(app, run);
   app::add_queries(app, run);
   app::add_demo(app, run);
+  describe(app);
   try {
     app.parse(argc, argv);
+    if (!run) throw app::UsageError("a subcommand is required (see onset --help)");
     run();
     return app::kExitOk;
   } catch (const CLI::ParseError& e) {
