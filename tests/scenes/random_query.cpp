@@ -34,7 +34,7 @@ Query interior_query(PairKind kind, Random& random) {
 
 Query mixed_query(PairKind kind, Random& random) {
   Query query = interior_query(kind, random);
-  if (coin(random)) shift_first(query, point(random, power_of_ten(random, -14, 0)));
+  if (coin(random)) shift_first(query, point(random, power_of_ten(random, -3, 1)));
   return query;
 }
 

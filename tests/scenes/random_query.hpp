@@ -16,7 +16,7 @@ void aim(Query& query, double t, double u, double v);
 // random_query aimed at an interior point of both primitives and an interior time.
 Query interior_query(PairKind kind, Random& random);
 
-// interior_query for one half of the seeds; for the other the first primitive is then shifted by 10^-14 .. 1,
+// interior_query for one half of the seeds; for the other the first primitive is then shifted by 10^-3 .. 10,
 // so that the answer may be anything. Unit size.
 Query mixed_query(PairKind kind, Random& random);
 
