@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -21,13 +22,22 @@ namespace {
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 
-// CGAL sizes what it reads from OFF before it has the values; these fill it with what no value can be, so
-// that the place where reading stopped can be named.
-struct PointList : std::vector<Point> {
+// CGAL sizes what it reads from OFF before it has the values. What is not read yet holds what no value can
+// be, so that the place where reading stopped can be named; and more elements than the file has bytes would
+// only fill the memory.
+template <class T>
+struct List : std::vector<T> {
+  explicit List(std::size_t bytes) : limit(bytes) {}
   void resize(std::size_t n) {
-    const double unread = std::numeric_limits<double>::quiet_NaN();
-    std::vector<Point>::resize(n, Point(unread, unread, unread));
+    if (n > limit) throw InputError("it says that it has " + std::to_string(n) + " elements");
+    std::vector<T>::resize(n, unread(T()));
   }
+  static Point unread(const Point&) { return Point(NAN, NAN, NAN); }
+  template <class U>
+  static U unread(const U& empty) {
+    return empty;
+  }
+  std::size_t limit;
 };
 struct Polygon : std::vector<long long> {
   void resize(std::size_t n) { std::vector<long long>::resize(n, kUnreadIndex); }
@@ -50,7 +60,7 @@ class CapturedWords {
   std::streambuf *cout_, *cerr_;
 };
 
-bool read(const std::string& ext, std::istream& in, PointList& points, std::vector<Polygon>& polygons) {
+bool read(const std::string& ext, std::istream& in, List<Point>& points, List<Polygon>& polygons) {
   const auto verbose = CGAL::parameters::verbose(true);
   if (ext == ".ply") return CGAL::IO::read_PLY(in, points, polygons, verbose);
   if (ext == ".obj") return CGAL::IO::read_OBJ(in, points, polygons, verbose);
@@ -78,8 +88,9 @@ PolygonSoup read_polygon_soup(const std::string& path) {
     throw InputError(path + ": unknown extension, .ply, .obj or .off expected");
   if (ext == ".ply") check_header(path, in);
   PolygonSoup soup;
-  PointList points;
-  std::vector<Polygon> polygons;
+  const std::size_t bytes = std::filesystem::file_size(path);
+  List<Point> points(bytes);
+  List<Polygon> polygons(bytes);
   try {
     CapturedWords words;
     soup.complete = read(ext, in, points, polygons);

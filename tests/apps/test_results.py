@@ -1,0 +1,148 @@
+"""What step, active-set and candidates say: fields, order, numbers, the same bytes each time."""
+
+import json
+import unittest
+
+from support import APART, END, FACES, START, AppTest, obj, random_soup
+
+COUNTS, SECONDS = ["vf", "ee"], ["broad", "narrow", "total"]
+
+
+class Small(AppTest):
+    """One vertex falls onto one face and touches it at t = 1/2."""
+
+    def setUp(self):
+        super().setUp()
+        self.a, self.b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
+        self.apart = self.write("apart.obj", obj(APART, FACES))
+
+    def check_toi(self, toi, tolerance=1e-6):
+        """Never later than 1/2; earlier by what the tolerance and a speed of 2 explain, with room for four of them."""
+        self.assertLessEqual(toi, 0.5)
+        self.assertGreater(toi, 0.5 - 4 * tolerance)
+
+    def test_step_json(self):
+        result = self.json("step", self.a, self.b, "--tolerance", "1e-6")
+        self.assertEqual(list(result)[:5], ["outcome", "step", "limiting", "candidates", "seconds"])
+        self.assertEqual(result["outcome"], "contact")
+        self.check_toi(result["step"])
+        self.assertEqual(result["limiting"], {"kind": "vf", "a": 3, "b": 0, "vertices": [3, 0, 1, 2]})
+        self.assertEqual(list(result["candidates"]), COUNTS)
+        self.assertGreaterEqual(result["candidates"]["vf"], 1)
+        self.assertEqual(list(result["seconds"]), SECONDS)
+        self.assertEqual(result["tolerance"], 1e-6)
+
+    def test_free_step(self):
+        result = self.json("step", self.a, self.apart)
+        self.assertEqual((result["outcome"], result["step"], result["limiting"]), ("free", 1, None))
+        self.assertEqual(self.csv("step", self.a, self.apart), "outcome,step,kind,a,b,v0,v1,v2,v3\nfree,1,,,,,,,\n")
+
+    def test_step_csv(self):
+        header, row = self.csv("step", self.a, self.b).splitlines()
+        self.assertEqual(header, "outcome,step,kind,a,b,v0,v1,v2,v3")
+        outcome, step, *pair = row.split(",")
+        self.assertEqual((outcome, pair), ("contact", ["vf", "3", "0", "3", "0", "1", "2"]))
+        self.assertEqual(float(step), self.json("step", self.a, self.b)["step"])
+
+    def test_active_set_json(self):
+        result = self.json("active-set", self.a, self.b, "--tolerance", "1e-6")
+        self.assertEqual(list(result)[:4], ["contacts", "earliest", "candidates", "seconds"])
+        self.assertEqual(result["contacts"], {"vf": 1, "ee": 0})
+        self.check_toi(result["earliest"])
+        self.assertEqual(list(result["seconds"]), SECONDS)
+        self.assertEqual(result["tolerance"], 1e-6)
+        self.assertEqual(result["outcome"], "contact")
+        pair = result["earliest_pair"]
+        self.assertEqual([pair[key] for key in ["kind", "a", "b", "vertices"]], ["vf", 3, 0, [3, 0, 1, 2]])
+        free = self.json("active-set", self.a, self.apart)
+        self.assertEqual((free["contacts"], free["earliest"], free["outcome"]), ({"vf": 0, "ee": 0}, None, "free"))
+
+    def test_active_set_csv(self):
+        header, row = self.csv("active-set", self.a, self.b, "--tolerance", "1e-6").splitlines()
+        self.assertEqual(header, "kind,a,b,toi,v0,v1,v2,v3,status")
+        fields = row.split(",")
+        self.assertEqual(fields[:3] + fields[4:], ["vf", "3", "0", "3", "0", "1", "2", "contact"])
+        self.check_toi(float(fields[3]))
+
+    def test_candidates(self):
+        result = self.json("candidates", self.a, self.b)
+        self.assertEqual(list(result)[:2], ["candidates", "seconds"])
+        rows = self.csv("candidates", self.a, self.b).splitlines()
+        self.assertEqual(rows[:2], ["kind,a,b", "vf,3,0"])
+        counted = {kind: sum(row.startswith(kind + ",") for row in rows) for kind in COUNTS}
+        self.assertEqual(result["candidates"], counted)
+
+    def test_options_arrive(self):
+        step = lambda *options: self.json("step", self.a, self.b, *options)
+        self.check_toi(step("--tolerance", "1e-9")["step"], 1e-9)
+        # From z = 1 at speed 2, a separation of 0.5 is reached at t = 1/4.
+        near = step("--tolerance", "1e-6", "--min-separation", "0.5")["step"]
+        self.assertLessEqual(near, 0.25)
+        self.assertGreater(near, 0.2499)
+        relative = step("--relative-tolerance", "1e-3")
+        self.assertAlmostEqual(relative["tolerance"], 1e-3 * relative["stats"]["extent"], delta=1e-15)
+        self.assertGreater(relative["tolerance"], step()["tolerance"])
+        self.assertEqual(step("--kernel", "scalar")["stats"]["kernel"], "scalar")
+        self.assertEqual(step("--threads", "1")["stats"]["threads"], 1)
+        self.assertIn("brute", self.json("candidates", self.a, self.b, "--broad-phase", "brute")["stats"]["broad_phase"])
+        self.check_toi(step("--tolerance", "1e-6", "--narrow-phase", "inclusion")["step"])
+
+    def test_summary_for_people(self):
+        text = self.succeed("step", self.a, self.b)
+        for words in ["6 vertices", "2 faces", "contact", "vertex 3 and face 0"]:
+            self.assertIn(words, text)
+        self.assertIn("1 vertex-face", self.succeed("active-set", self.a, self.b))
+        self.assertIn("candidates", self.succeed("candidates", self.a, self.b))
+
+    def test_results_in_files(self):
+        shown = self.succeed("active-set", self.a, self.b, "--json", "out.json", "--csv", "out.csv")
+        self.assertIn("1 vertex-face", shown)
+        self.assertEqual(json.loads((self.folder / "out.json").read_text())["contacts"], {"vf": 1, "ee": 0})
+        self.assertEqual((self.folder / "out.csv").read_text(), self.csv("active-set", self.a, self.b))
+        rows = self.succeed("active-set", self.a, self.b, "--json", "out.json", "--csv", "-")
+        self.assertEqual(rows, self.csv("active-set", self.a, self.b))
+
+    def test_help_and_version(self):
+        self.assertRegex(self.succeed("--version"), r"^onset \d+\.\d+\.\d+\n$")
+        for command in ["step", "active-set", "candidates", "queries", "demo"]:
+            self.assertIn(command, self.succeed("--help"))
+            self.assertIn("--relative-tolerance", self.succeed(command, "--help"))
+
+
+class Soup(AppTest):
+    """Many contacts: the same bytes for any number of threads, kernel and run; sorted; numbers that round-trip."""
+
+    def setUp(self):
+        super().setUp()
+        faces, t0, t1 = random_soup(1, 400)
+        self.frames = self.write("a.obj", obj(t0, faces)), self.write("b.obj", obj(t1, faces))
+
+    def same_bytes(self, command):
+        first = self.csv(command, *self.frames, "--threads", "1")
+        for options in [("--threads", "1"), ("--threads", "2"), (), ("--kernel", "scalar"), ("--broad-phase", "brute")]:
+            with self.subTest(options=options):
+                self.assertEqual(self.csv(command, *self.frames, *options), first)
+        return first
+
+    def test_active_set(self):
+        rows = [row.split(",") for row in self.same_bytes("active-set").splitlines()[1:]]
+        self.assertGreater(len(rows), 1000)
+        order = [(row[0] == "ee", int(row[1]), int(row[2])) for row in rows]
+        self.assertEqual(order, sorted(set(order)))
+        for row in rows:
+            self.assertEqual("%.17g" % float(row[3]), row[3])
+
+    def test_candidates(self):
+        rows = [row.split(",") for row in self.same_bytes("candidates").splitlines()[1:]]
+        order = [(row[0] == "ee", int(row[1]), int(row[2])) for row in rows]
+        self.assertEqual(order, sorted(set(order)))
+        self.assertEqual({"vf", "ee"}, {row[0] for row in rows})
+
+    def test_step_is_the_earliest_of_the_active_set(self):
+        self.same_bytes("step")
+        contacts = self.json("active-set", *self.frames)
+        self.assertEqual(self.json("step", *self.frames)["step"], contacts["earliest"])
+
+
+if __name__ == "__main__":
+    unittest.main()
