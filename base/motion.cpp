@@ -19,9 +19,10 @@ void check_shape(const char* name, int num_vertices, const Positions& x) {
                                 std::to_string(num_vertices) + " vertices and needs one row of 3 for each");
 }
 
-// -1, 0, 1 as column i of the caller's positions comes before, with or after column j. The order depends only on differences of
-// positions along an axis and not on their sign, so it commutes with exchanging axes, flipping them, exact translation
-// and power-of-two scaling. Columns that tie are equal up to sign and may be exchanged freely.
+// -1, 0, 1 as column i of the caller's positions comes before, with or after column j. The order depends only
+// on differences of positions along an axis and not on their sign, so it commutes with exchanging axes,
+// flipping them, exact translation and power-of-two scaling. Columns that tie are equal up to sign and may be
+// exchanged freely.
 int compare_columns(const Motion& m, int i, int j) {
   double sign[2] = {0, 0};
   const int column[2] = {i, j};
@@ -80,7 +81,8 @@ Outcome classify(const double* x) {
 void find_bad_vertex(Motion& m) {
   for (int v = 0; v < m.num_vertices && m.status == Outcome::free; ++v)
     for (const double* x : {m.t0(v), m.t1(v)})
-      if (const Outcome o = classify(x); o != Outcome::free && m.status == Outcome::free) m.status = o, m.bad_vertex = v;
+      if (const Outcome o = classify(x); o != Outcome::free && m.status == Outcome::free)
+        m.status = o, m.bad_vertex = v;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A step's positions, checked and copied once into plain arrays, and the scene-wide sizes the error bounds come from.
+// A step's positions, checked and copied once into plain arrays, and the scene-wide sizes the error bounds
+// come from.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ inline constexpr int kMotionStride = 8;
 // The three axes are stored in an order that depends on the motion only up to a permutation of axes (see
 // canonical_axes), so that everything after this is bit for bit the same for a scene with its axes exchanged.
 struct Motion {
-  AlignedArray<double> x;            // kMotionStride doubles a vertex
+  AlignedArray<double> x;  // kMotionStride doubles a vertex
   int num_vertices = 0;
   std::array<int, 3> axes{0, 1, 2};  // axes[i]: the caller's column stored as axis i
   Outcome status = Outcome::free;    // free, non_finite or out_of_range
@@ -34,9 +35,9 @@ Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t
 // Checks the positions already stored in m.x and brings the axes into canonical order.
 void finish_motion(Motion& m);
 
-// Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j| (edge-edge) that a pair
-// with overlapping swept boxes can have (each side of the pair spans its swept extent, and the boxes are at most `gap`
-// apart): R <= w(A) + w(B) + gap.
+// Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j|
+// (edge-edge) that a pair with overlapping swept boxes can have (each side of the pair spans its swept
+// extent, and the boxes are at most `gap` apart): R <= w(A) + w(B) + gap.
 struct Extents {
   std::array<double, 3> vertex_face{}, edge_edge{};
   double largest() const;  // over kinds and axes

@@ -58,9 +58,10 @@ inline void store(int* p, I8 x) { _mm256_storeu_si256(reinterpret_cast<__m256i*>
 inline I8 operator+(I8 a, I8 b) { return {_mm256_add_epi32(a.v, b.v)}; }
 inline I8 min(I8 a, I8 b) { return {_mm256_min_epi32(a.v, b.v)}; }
 inline I8 max(I8 a, I8 b) { return {_mm256_max_epi32(a.v, b.v)}; }
-inline int mask_equal(I8 a, I8 b) {
-  return _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.v, b.v)));
-}
+inline I8 operator|(I8 a, I8 b) { return {_mm256_or_si256(a.v, b.v)}; }
+inline I8 operator==(I8 a, I8 b) { return {_mm256_cmpeq_epi32(a.v, b.v)}; }  // all bits of a lane
+inline int mask_true(I8 a) { return _mm256_movemask_ps(_mm256_castsi256_ps(a.v)); }
+inline I8 lane_numbers() { return {_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)}; }
 
 // The lanes of `mask` moved to the front; what follows them is unspecified.
 inline I8 compress(I8 x, int mask) {
@@ -75,8 +76,8 @@ inline void store_interleaved(int* p, I8 a, I8 b) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p + 8), _mm256_permute2x128_si256(lo, hi, 0x31));
 }
 
-// x[i] lane j <- x[j] lane i.
-inline void transpose(F8 (&x)[8]) {
+// x[i] lane j <- x[j] lane i, for 8 packs.
+inline void transpose(F8* x) {
   __m256 a[8], b[8];
   for (int i = 0; i < 4; ++i) {
     a[2 * i] = _mm256_unpacklo_ps(x[2 * i].v, x[2 * i + 1].v);
@@ -132,7 +133,10 @@ inline void store(int* p, I8 x) {
 inline I8 operator+(I8 a, I8 b) { ONSET_EACH(I8, a.v[i] + b.v[i]); }
 inline I8 min(I8 a, I8 b) { ONSET_EACH(I8, a.v[i] < b.v[i] ? a.v[i] : b.v[i]); }
 inline I8 max(I8 a, I8 b) { ONSET_EACH(I8, a.v[i] > b.v[i] ? a.v[i] : b.v[i]); }
-inline int mask_equal(I8 a, I8 b) { ONSET_MASK(a.v[i] == b.v[i]); }
+inline I8 operator|(I8 a, I8 b) { ONSET_EACH(I8, a.v[i] | b.v[i]); }
+inline I8 operator==(I8 a, I8 b) { ONSET_EACH(I8, -int(a.v[i] == b.v[i])); }  // all bits of a lane
+inline int mask_true(I8 a) { ONSET_MASK(a.v[i] < 0); }
+inline I8 lane_numbers() { return {{0, 1, 2, 3, 4, 5, 6, 7}}; }
 
 inline I8 compress(I8 x, int mask) { ONSET_EACH(I8, x.v[kLaneTable.lane[mask][i]]); }
 
@@ -140,7 +144,7 @@ inline void store_interleaved(int* p, I8 a, I8 b) {
   for (int i = 0; i < 8; ++i) p[2 * i] = a.v[i], p[2 * i + 1] = b.v[i];
 }
 
-inline void transpose(F8 (&x)[8]) {
+inline void transpose(F8* x) {
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < i; ++j) {
       const float t = x[i].v[j];

@@ -164,7 +164,7 @@ inline Check<V, K> advance(State<V, K>& s, const V (&w)[3], V dist, bool maximum
   Check<V, K> r;
   r.contact = dist - s.d <= s.delta;
   const auto crawls = (dist > V::all(0.7) * s.dist) & (next - s.t < V::all(0.125) * (one<V>() - s.t));
-  s.slow = select(crawls, s.slow + one<V>(), max(s.slow - one<V>(), zero<V>()));
+  s.slow = select(crawls, s.slow + one<V>(), select(s.slow > zero<V>(), s.slow - one<V>(), s.slow));
   r.stuck = (next <= s.t) | (s.slow >= V::all(4));
   s.dist = dist;
   s.checks = s.checks + one<V>();
@@ -278,8 +278,23 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
     if (!(positive >> l & 1)) verdict[l] = int(Verdict::initial);
 }
 
+// Four pairs where they stopped.
 template <int K>
-inline void advance_all(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+inline void restore(const KernelResume* resume, const int (&positions)[4], State<D4, K>& s) {
+  double t[4], delta[4], slow[4], checks[4];
+  for (int l = 0; l < 4; ++l) {
+    const KernelResume& r = resume[positions[l]];
+    t[l] = r.t, delta[l] = r.delta, slow[l] = -r.patience, checks[l] = static_cast<double>(r.checks);
+  }
+  s.t = D4::load(t);
+  s.delta = D4::load(delta);
+  s.slow = D4::load(slow);
+  s.checks = D4::load(checks);
+}
+
+template <int K>
+inline void advance_all(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
+                        KernelResult* results) {
   constexpr int kQueue = 64;
   Record<K> queue[kQueue + 4];
   int owner[kQueue + 4];
@@ -288,12 +303,12 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
   int lane_owner[4] = {-1, -1, -1, -1}, active = 0;
   while (next < count || queued > 0 || active > 0) {
     while (next < count && queued < kQueue) {  // first checks, four at a time
-      int rows[4];
-      for (int l = 0; l < 4; ++l) rows[l] = subset[next + l < count ? next + l : count - 1];
+      int rows[4], positions[4], verdict[4] = {-1, -1, -1, -1};
+      for (int l = 0; l < 4; ++l) positions[l] = next + l < count ? next + l : count - 1, rows[l] = subset[positions[l]];
       State<D4, K> s;
-      int verdict[4];
       set_up(pairs, rows, s);
-      first_check(pairs, s, verdict);
+      if (resume != nullptr) restore(resume, positions, s);
+      else first_check(pairs, s, verdict);
       for (int l = 0; l < 4 && next < count; ++l, ++next) {
         if (verdict[l] < 0) {
           take_lane(s, l, queue[queued]);
@@ -322,5 +337,19 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
         lane_owner[l] = -1;
         --active;
       }
+  }
+}
+
+template <int K>
+inline void look_at(const KernelPairs& pairs, int row, double t, double (&w)[3]) {
+  const int rows[4] = {row, row, row, row};
+  State<D4, K> s;
+  set_up(pairs, rows, s);
+  D4 direction[3], dist;
+  look(s, D4::all(t), pairs.maximum_norm, direction, dist);
+  for (int a = 0; a < 3; ++a) {
+    double lanes[4];
+    direction[a].store(lanes);
+    w[a] = lanes[0];
   }
 }

@@ -6,7 +6,8 @@
 namespace onset {
 namespace {
 
-// The power of two that brings x into [1, 2); for x = 0 or subnormal the largest one in range (the kernels' rule).
+// The power of two that brings x into [1, 2); for x = 0 or subnormal the largest one in range (the kernels'
+// rule).
 double inverse_power_of_two(double x) {
   const int exponent = x < 0x1p-1022 ? -1023 : std::ilogb(x);
   return std::ldexp(1.0, -exponent);
@@ -30,6 +31,16 @@ Corners make_corners(PairKind kind, const Motion& motion, const int (&v)[4]) {
       }
     }
   const double scale = inverse_power_of_two(largest);
+  for (int end = 0; end < 2; ++end)
+    for (int i = 0; i < r.count - (r.count == 4 ? 2 : 0); ++i) {
+      const int from = r.count == 4 ? v[2 * i] : v[1 + i],
+                to = r.count == 4 ? v[2 * i + 1] : v[1 + (i + 1) % 3];
+      for (int a = 0; a < 3; ++a) {
+        const double* p = end == 0 ? motion.t0(from) : motion.t1(from);
+        const double* q = end == 0 ? motion.t0(to) : motion.t1(to);
+        r.e[end][i][a] = (q[a] - p[a]) * scale;
+      }
+    }
   double R[3] = {};
   for (auto& end : r.c)
     for (int k = 0; k < r.count; ++k)

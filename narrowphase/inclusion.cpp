@@ -11,12 +11,13 @@ namespace {
 constexpr double kU = 0x1p-53;
 constexpr double kEta = 0x1p-1074;
 
-// A part of the domain with F at its corners. Edge-edge: a box of (t, u, v), corner 4 it + 2 iu + iv. Vertex-face: an interval of
-// t times a part of the triangle, corner 3 it + j; the triangle itself is bisected, so no corner leaves the prism.
+// A part of the domain with F at its corners. Edge-edge: a box of (t, u, v), corner 4 it + 2 iu + iv.
+// Vertex-face: an interval of t times a part of the triangle, corner 3 it + j; the triangle itself is
+// bisected, so no corner leaves the prism.
 //
-// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two corners (eq. 6's domain halving
-// without re-evaluation). Running bound: |m^ - m| <= (e + e)/2 + u |m^| + eta/2, per axis; the factor pays for evaluating
-// it in floating point.
+// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two corners (eq.
+// 6's domain halving without re-evaluation). Running bound: |m^ - m| <= (e + e)/2 + u |m^| + eta/2, per axis;
+// the factor pays for evaluating it in floating point.
 struct Box {
   double f[8][3];
   double error[3];
@@ -56,8 +57,10 @@ class Search {
         root.f[k][a] = begin[k][a];
         root.f[per_end_ + k][a] = in_.corners.c[1][k][a];
       }
-    // A corner at t_begin errs by u (difference) + 3u (lerp) of the largest magnitude; 4.25 covers second order.
-    for (int a = 0; a < 3; ++a) root.error[a] = 4.25 * kU * largest(root, a) * (1 + 0x1p-50) + kEta + corner_floor(a);
+    // A corner at t_begin errs by u (difference) + 3u (lerp) of the largest magnitude; 4.25 covers second
+    // order.
+    for (int a = 0; a < 3; ++a)
+      root.error[a] = 4.25 * kU * largest(root, a) * (1 + 0x1p-50) + kEta + corner_floor(a);
     root.t0 = in_.t_begin;
     root.t1 = 1;
     root.depth = 0;
@@ -88,7 +91,8 @@ class Search {
     return m;
   }
 
-  // The box of F's corners, grown by the error, misses the ball (or cube) of radius d: rejected. Paper, line 9.
+  // The box of F's corners, grown by the error, misses the ball (or cube) of radius d: rejected. Paper,
+  // line 9.
   bool separated(const Box& b) const {
     const double d = in_.separation;
     double squares = 0;
@@ -104,14 +108,16 @@ class Search {
     return separated_along_axes(b);
   }
 
-  // Any direction n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too: the pair's normal, and the mean of the
-  // corners. A product n.f errs by the corners' errors plus 3u sum |n_a| |f_a|.
+  // Any direction n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too: the pair's normal, and
+  // the mean of the corners. A product n.f errs by the corners' errors plus 3u sum |n_a| |f_a|.
   bool separated_along_axes(const Box& b) const {
     double u[3], v[3], n[3], mean[3] = {};
     const int k = per_end_;
     for (int a = 0; a < 3; ++a) {
-      u[a] = k == 4 ? b.f[2][a] - b.f[0][a] + b.f[6][a] - b.f[4][a] : b.f[1][a] - b.f[0][a] + b.f[4][a] - b.f[3][a];
-      v[a] = k == 4 ? b.f[1][a] - b.f[0][a] + b.f[5][a] - b.f[4][a] : b.f[2][a] - b.f[0][a] + b.f[5][a] - b.f[3][a];
+      u[a] = k == 4 ? b.f[2][a] - b.f[0][a] + b.f[6][a] - b.f[4][a]
+                    : b.f[1][a] - b.f[0][a] + b.f[4][a] - b.f[3][a];
+      v[a] = k == 4 ? b.f[1][a] - b.f[0][a] + b.f[5][a] - b.f[4][a]
+                    : b.f[2][a] - b.f[0][a] + b.f[5][a] - b.f[3][a];
       for (int i = 0; i < 2 * k; ++i) mean[a] += b.f[i][a];
     }
     for (int a = 0; a < 3; ++a) n[a] = u[(a + 1) % 3] * v[(a + 2) % 3] - u[(a + 2) % 3] * v[(a + 1) % 3];
@@ -134,8 +140,8 @@ class Search {
     return std::max(lo, -hi) > wanted;
   }
 
-  // Narrow enough that every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line 15), or too
-  // narrow to halve.
+  // Narrow enough that every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line
+  // 15), or too narrow to halve.
   bool small(const Box& b) const {
     const double middle = 0.5 * (b.t0 + b.t1);
     const bool can_halve = b.t0 < middle && middle < b.t1;
@@ -145,7 +151,8 @@ class Search {
       for (int k = 1; k < 2 * per_end_; ++k) lo = std::min(lo, b.f[k][a]), hi = std::max(hi, b.f[k][a]);
       width = std::max(width, hi - lo);
     }
-    return width <= 0.5 * in_.tolerance || (!can_halve && change_in_time(b) >= change_in_space(b)) || b.depth > 1000;
+    return width <= 0.5 * in_.tolerance || (!can_halve && change_in_time(b) >= change_in_space(b)) ||
+           b.depth > 1000;
   }
 
   double change_in_time(const Box& b) const {
@@ -168,11 +175,13 @@ class Search {
     if (per_end_ == 4) {
       const double in_u = std::max({change(b, 0, 2), change(b, 1, 3), change(b, 4, 6), change(b, 5, 7)});
       const double in_v = std::max({change(b, 0, 1), change(b, 2, 3), change(b, 4, 5), change(b, 6, 7)});
-      if (can_halve_time && change_in_time(b) >= std::max(in_u, in_v)) return halve(b, {{0, 4}, {1, 5}, {2, 6}, {3, 7}}, true);
+      if (can_halve_time && change_in_time(b) >= std::max(in_u, in_v))
+        return halve(b, {{0, 4}, {1, 5}, {2, 6}, {3, 7}}, true);
       if (in_u >= in_v) return halve(b, {{0, 2}, {1, 3}, {4, 6}, {5, 7}}, false);
       return halve(b, {{0, 1}, {2, 3}, {4, 5}, {6, 7}}, false);
     }
-    if (can_halve_time && change_in_time(b) >= change_in_space(b)) return halve(b, {{0, 3}, {1, 4}, {2, 5}}, true);
+    if (can_halve_time && change_in_time(b) >= change_in_space(b))
+      return halve(b, {{0, 3}, {1, 4}, {2, 5}}, true);
     int side = 0;
     double longest = -1;
     for (int j = 0; j < 3; ++j) {
@@ -196,7 +205,8 @@ class Search {
         lower.f[e.to][a] = upper.f[e.from][a] = m;
         size[a] = std::max(size[a], std::fabs(m));
       }
-    for (int a = 0; a < 3; ++a) lower.error[a] = upper.error[a] = (b.error[a] + kU * size[a]) * (1 + 4 * kU) + kEta;
+    for (int a = 0; a < 3; ++a)
+      lower.error[a] = upper.error[a] = (b.error[a] + kU * size[a]) * (1 + 4 * kU) + kEta;
     if (in_time) lower.t1 = upper.t0 = 0.5 * (b.t0 + b.t1);
     lower.depth = upper.depth = b.depth + 1;
     keep(lower);

@@ -1,17 +1,18 @@
-// What the narrow-phase kernels take and give: plain data, shared by every instruction set's copy of the kernel text.
+// What the narrow-phase kernels take and give: plain data, shared by every instruction set's copy of the
+// kernel text.
 #pragma once
 
 namespace onset {
 
 // Pairs of one kind. Vertex ids: vertex-face v, f0, f1, f2; edge-edge a0, a1, b0, b1.
 struct KernelPairs {
-  const double* x;             // kMotionStride doubles a vertex (base/motion.hpp)
-  const int (*vertices)[4];    // one row a pair
-  const double* separation;    // d of each pair, model length
+  const double* x;           // kMotionStride doubles a vertex (base/motion.hpp)
+  const int (*vertices)[4];  // one row a pair
+  const double* separation;  // d of each pair, model length
   int count;
-  double tolerance;            // model length
-  double horizon;              // pairs certified apart beyond this time may be dropped as free
-  bool maximum_norm;           // d is measured in the L-infinity norm
+  double tolerance;   // model length
+  double horizon;     // pairs certified apart beyond this time may be dropped as free
+  bool maximum_norm;  // d is measured in the L-infinity norm
   long long max_checks;
 };
 
@@ -19,28 +20,42 @@ enum class Verdict : int {
   free,     // certified apart on the whole step (or beyond the horizon)
   contact,  // within d + delta at t
   initial,  // not certifiably farther apart than d at t = 0
-  stalled,  // apart until t, progress too slow for directions alone
+  stalled,  // apart until t, progress slow
   budget,   // max_checks spent: apart until t
 };
 
 // Where a pair ended; scaled lengths are in units of `unit` (a power of two, model length).
 struct KernelResult {
-  double t;          // certified apart on [0, t]
-  double distance;   // scaled upper bound of the distance at t
-  double delta;      // scaled tolerance used: contact means distance - d <= delta
+  double t;         // certified apart on [0, t]
+  double distance;  // scaled upper bound of the distance at t
+  double delta;     // scaled tolerance used: contact means distance - d <= delta
   double unit;
   long long checks;
   Verdict verdict;
 };
 
+// Where advancement goes on with a pair that stalled.
+struct KernelResume {
+  double t, delta;
+  long long checks;
+  double patience;  // crawling checks allowed beyond the usual ones
+};
+
 struct KernelTable {
   const char* name;
-  // Writes the indices of the pairs that single precision cannot certify as apart on the whole step; returns their number.
+  // Writes the indices of the pairs that single precision cannot certify as apart on the whole step; returns
+  // their number.
   int (*cull_vertex_face)(const KernelPairs&, int* survivors);
   int (*cull_edge_edge)(const KernelPairs&, int* survivors);
-  // Directional conservative advancement of the pairs subset[0..count), results at the same positions as in subset.
-  void (*advance_vertex_face)(const KernelPairs&, const int* subset, int count, KernelResult*);
-  void (*advance_edge_edge)(const KernelPairs&, const int* subset, int count, KernelResult*);
+  // Directional conservative advancement of the pairs subset[0..count), results at the same positions as in
+  // subset. From t = 0, or from resume[0..count) where it is not null.
+  void (*advance_vertex_face)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
+                              KernelResult*);
+  void (*advance_edge_edge)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
+                            KernelResult*);
+  // The direction that separates pair `row` best at time t.
+  void (*look_vertex_face)(const KernelPairs&, int row, double t, double (&w)[3]);
+  void (*look_edge_edge)(const KernelPairs&, int row, double t, double (&w)[3]);
 };
 
 const KernelTable& scalar_kernels();

@@ -4,8 +4,13 @@
 
 namespace onset {
 const KernelTable& scalar_kernels() {
-  static const KernelTable table{"scalar", scalar::cull_vertex_face, scalar::cull_edge_edge, scalar::advance_vertex_face,
-                                 scalar::advance_edge_edge};
+  static const KernelTable table{"scalar",
+                                 scalar::cull_vertex_face,
+                                 scalar::cull_edge_edge,
+                                 scalar::advance_vertex_face,
+                                 scalar::advance_edge_edge,
+                                 scalar::look_vertex_face,
+                                 scalar::look_edge_edge};
   return table;
 }
 }  // namespace onset

@@ -18,12 +18,16 @@ namespace {
 
 int cull_vertex_face(const KernelPairs& pairs, int* survivors) { return cull_all<3>(pairs, survivors); }
 int cull_edge_edge(const KernelPairs& pairs, int* survivors) { return cull_all<4>(pairs, survivors); }
-void advance_vertex_face(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
-  advance_all<3>(pairs, subset, count, results);
+void advance_vertex_face(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
+                         KernelResult* results) {
+  advance_all<3>(pairs, subset, count, resume, results);
 }
-void advance_edge_edge(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
-  advance_all<4>(pairs, subset, count, results);
+void advance_edge_edge(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
+                       KernelResult* results) {
+  advance_all<4>(pairs, subset, count, resume, results);
 }
+void look_vertex_face(const KernelPairs& pairs, int row, double t, double (&w)[3]) { look_at<3>(pairs, row, t, w); }
+void look_edge_edge(const KernelPairs& pairs, int row, double t, double (&w)[3]) { look_at<4>(pairs, row, t, w); }
 
 }  // namespace
 }  // namespace ONSET_KERNEL

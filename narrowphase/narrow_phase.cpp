@@ -5,6 +5,8 @@
 
 #include "base/dispatch.hpp"
 #include "narrowphase/inclusion.hpp"
+#include "narrowphase/initial.hpp"
+#include "narrowphase/interval_certificate.hpp"
 
 namespace onset {
 namespace {
@@ -41,9 +43,11 @@ void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
   achieved_tolerance = std::max(achieved_tolerance, o.achieved_tolerance);
 }
 
-NarrowPhase::NarrowPhase(const NarrowPhaseInput& input) : in_(input), kernels_(&kernels_for(input.options.kernel)) {}
+NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
+    : in_(input), kernels_(&kernels_for(input.options.kernel)) {}
 
-void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const {
+void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
+                          NarrowPhaseScratch& scratch) const {
   scratch.vertices.resize(4 * count);
   scratch.separation.resize(count);
   scratch.survivors.resize(count);
@@ -66,8 +70,14 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   look_up(kind, pairs, count, scratch);
   const auto* vertices = reinterpret_cast<const int(*)[4]>(scratch.vertices.data());
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
-  // The inclusion root finder takes over after one check, which finds the pairs that start within d and the tolerance to use.
-  const KernelPairs input{in_.motion.x.data(), vertices, scratch.separation.data(), int(count), in_.tolerance, horizon,
+  // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
+  // tolerance to use.
+  const KernelPairs input{in_.motion.x.data(),
+                          vertices,
+                          scratch.separation.data(),
+                          int(count),
+                          in_.tolerance,
+                          horizon,
                           in_.options.norm == Norm::maximum,
                           inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
   const bool vf = kind == PairKind::vertex_face;
@@ -78,8 +88,8 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
     survivors = (vf ? kernels_->cull_vertex_face : kernels_->cull_edge_edge)(input, scratch.survivors.data());
   }
   scratch.results.resize(std::size_t(survivors));
-  (vf ? kernels_->advance_vertex_face : kernels_->advance_edge_edge)(input, scratch.survivors.data(), survivors,
-                                                                      scratch.results.data());
+  (vf ? kernels_->advance_vertex_face : kernels_->advance_edge_edge)(
+      input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
   scratch.stats.candidates += std::int64_t(count);
   scratch.stats.after_culls += survivors;
   for (int i = 0; i < survivors; ++i) {
@@ -87,36 +97,94 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
     const KernelResult& r = scratch.results[std::size_t(i)];
     scratch.stats.checks += r.checks;
     scratch.stats.most_checks = std::max<std::int64_t>(scratch.stats.most_checks, r.checks);
-    if (r.verdict != Verdict::free)
-      finish(kind, pairs[row], vertices[row], scratch.separation[std::size_t(row)], r, scratch.stats, out);
+    if (r.verdict != Verdict::free) finish({kind, pairs[row], input, row}, r, scratch.stats, out);
   }
 }
 
-void NarrowPhase::finish(PairKind kind, IdPair pair, const int (&vertices)[4], double separation,
-                         const KernelResult& found, NarrowPhaseStats& stats, std::vector<PairResult>& out) const {
-  PairResult r{pair, found.t, found.t, 0, Outcome::contact};
-  const double d = separation / found.unit;
-  double distance = found.distance;
+// A pair that crawls: certify an interval and go on, or go on regardless for a while. Real contacts of
+// degenerate pairs converge slowly but steadily; what neither finishes is left for the inclusion root finder.
+KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelResult r) const {
+  constexpr double kPatience = 200;
+  const double wanted = (c.input.separation[c.row] / r.unit + 0.5 * r.delta) * (1 + 0x1p-49);
+  bool patient = false;
+  for (int rounds = 0; rounds < 64 && r.verdict == Verdict::stalled; ++rounds) {
+    const double t = certify_interval(corners, r.t, wanted, c.input.maximum_norm);
+    ++r.checks;
+    if (t >= 1) {
+      r.t = 1;
+      r.verdict = Verdict::free;
+      return r;
+    }
+    if (t == r.t && patient) return r;
+    patient = t == r.t;
+    const KernelResume resume{t, r.delta, r.checks, patient ? kPatience : 0};
+    const auto advance =
+        c.kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
+    advance(c.input, &c.row, 1, &resume, &r);
+  }
+  return r;
+}
+
+void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
+                         std::vector<PairResult>& out) const {
+  KernelResult found = checked;
+  PairResult r{c.pair, 0, 0, 0, Outcome::contact};
+  const Corners corners = make_corners(c.kind, in_.motion, c.input.vertices[c.row]);
+  const double d = c.input.separation[c.row] / found.unit;
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
-  const std::int64_t left = in_.options.max_checks - found.checks;
-  if (found.verdict == Verdict::initial) {
-    r.toi = r.step_limit = 0;
-    r.outcome = Outcome::initial_contact;
-  } else if (found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only && left > 0)) {
-    const Corners corners = make_corners(kind, in_.motion, vertices);
+  if (!inclusion_only && found.verdict == Verdict::stalled) found = push_on(c, corners, found);
+  stats.checks += found.checks - checked.checks;
+  std::int64_t checks = found.checks;
+  if (found.verdict == Verdict::free) return;
+  // A cube of half-width d can be clear of the pair where no Euclidean direction shows it: the root finder
+  // decides.
+  const bool unclear = found.verdict == Verdict::initial && c.input.maximum_norm && d > 0;
+  if (unclear) found.t = 0, found.delta = in_.tolerance / found.unit;
+  if (unclear || found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only)) {
     const InclusionResult searched =
-        find_first_inclusion({corners, found.t, d, found.delta, in_.options.norm == Norm::maximum, left});
+        find_first_inclusion({corners, found.t, d, found.delta, in_.options.norm == Norm::maximum,
+                              in_.options.max_checks - checks});
     ++stats.inclusion;
     stats.checks += searched.checks;
-    stats.most_checks = std::max<std::int64_t>(stats.most_checks, found.checks + searched.checks);
+    checks += searched.checks;
     if (searched.end == InclusionResult::End::free) return;
-    r.toi = r.step_limit = searched.t;
-    distance = searched.distance;
-    if (searched.end == InclusionResult::End::budget) r.outcome = Outcome::budget;
-  } else if (found.verdict == Verdict::budget) {
-    r.outcome = Outcome::budget;
+    found.t = searched.t;
+    found.distance = searched.distance;
+    if (searched.t > 0 || !unclear)
+      found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
   }
-  r.tolerance = std::max(0.0, (distance - d) * found.unit);
+  if (found.verdict == Verdict::initial) return finish_initial(c, corners, found, stats, out);
+  if (found.verdict == Verdict::budget) r.outcome = Outcome::budget;
+  r.toi = r.step_limit = found.t;
+  r.tolerance = std::max(0.0, (found.distance - d) * found.unit);
+  stats.most_checks = std::max(stats.most_checks, checks);
+  report(r, stats, out);
+}
+
+// Touching or closer than d at the start: where the motion parts the pair the step goes on, to the next
+// contact if there is one.
+void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
+                                 NarrowPhaseStats& stats, std::vector<PairResult>& out) const {
+  const double d = c.input.separation[c.row] / found.unit;
+  const Parting parting = find_parting({corners, c.input, c.row, c.kind, *kernels_, d});
+  PairResult r{c.pair, 0, parting.t, std::max(0.0, (found.distance - d) * found.unit),
+               Outcome::initial_contact};
+  if (parting.t > 0) r.outcome = Outcome::initial_separating;
+  if (parting.apart && parting.t < 1) {
+    const double floor = 116 * 0x1p-53 * corners.rho;  // 16 E7, as at a start that is apart
+    KernelResult later = found;
+    later.t = parting.t;
+    later.delta = std::max(std::min(in_.tolerance / found.unit, 0.25 * parting.excess), floor);
+    later.verdict = Verdict::stalled;
+    std::vector<PairResult> next;
+    finish(c, later, stats, next);
+    r.step_limit = next.empty() ? 1 : next[0].step_limit;
+    if (!next.empty()) --stats.contacts;
+  }
+  report(r, stats, out);
+}
+
+void NarrowPhase::report(const PairResult& r, NarrowPhaseStats& stats, std::vector<PairResult>& out) {
   stats.achieved_tolerance = std::max(stats.achieved_tolerance, r.tolerance);
   ++stats.contacts;
   stats.budget += r.outcome == Outcome::budget;

@@ -1,10 +1,12 @@
-// Candidate pairs in, time of impact out: culls, advancement, and the inclusion root finder for what they leave undecided.
+// Candidate pairs in, time of impact out: culls, advancement, and the inclusion root finder for what they
+// leave undecided.
 #pragma once
 
 #include <vector>
 
 #include "base/motion.hpp"
 #include "base/pair_sink.hpp"
+#include "narrowphase/corners.hpp"
 #include "narrowphase/kernel.hpp"
 #include "onset/options.hpp"
 
@@ -21,13 +23,15 @@ struct NarrowPhaseInput {
 struct PairResult {
   IdPair pair;
   double toi;         // certified apart on [0, toi) (initial outcomes: 0)
-  double step_limit;  // how far this pair lets a step go: toi; for initial_separating the next contact, 1 if none
+  double step_limit;  // how far this pair lets a step go: toi; for initial_separating the next contact, 1 if
+                      // none
   double tolerance;   // distance beyond the separation at which it was reported, model length
   Outcome outcome;
 };
 
 struct NarrowPhaseStats {
-  std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, budget = 0, checks = 0, most_checks = 0;
+  std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, budget = 0, checks = 0,
+               most_checks = 0;
   double achieved_tolerance = 0;
   void add(const NarrowPhaseStats& other);
 };
@@ -43,16 +47,26 @@ struct NarrowPhaseScratch {
 class NarrowPhase {
  public:
   explicit NarrowPhase(const NarrowPhaseInput& input);
-  // Appends the pairs of the batch that are not free (in the batch's order). Pairs certified apart beyond `horizon` may be left
-  // out; the rest have the same results for any horizon.
-  void process(PairKind kind, const IdPair* pairs, std::size_t count, double horizon, NarrowPhaseScratch& scratch,
-               std::vector<PairResult>& out) const;
+  // Appends the pairs of the batch that are not free (in the batch's order). Pairs certified apart beyond
+  // `horizon` may be left out; the rest have the same results for any horizon.
+  void process(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
+               NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const;
   const char* kernel_name() const { return kernels_->name; }
 
  private:
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
-  void finish(PairKind kind, IdPair pair, const int (&vertices)[4], double separation, const KernelResult& found,
-              NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+  struct Case {  // one pair of a batch
+    PairKind kind;
+    IdPair pair;
+    const KernelPairs& input;
+    int row;
+  };
+  KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
+  void finish(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
+              std::vector<PairResult>& out) const;
+  void finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
+                      NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+  static void report(const PairResult& r, NarrowPhaseStats& stats, std::vector<PairResult>& out);
 
   NarrowPhaseInput in_;
   const KernelTable* kernels_;

@@ -43,7 +43,8 @@ void describe_accuracy(const Motion& motion, const Extents& extents, const Optio
   stats.tolerance = absolute_tolerance(options, stats.extent);
   for (int a = 0; a < 3; ++a)  // 8u R + 4 eta: covers corners evaluated at any time
     stats.error_bound[std::size_t(motion.axes[std::size_t(a)])] =
-        0x1p-50 * std::max(extents.vertex_face[std::size_t(a)], extents.edge_edge[std::size_t(a)]) + 4 * 0x1p-1074;
+        0x1p-50 * std::max(extents.vertex_face[std::size_t(a)], extents.edge_edge[std::size_t(a)]) +
+        4 * 0x1p-1074;
 }
 
 }  // namespace onset

@@ -1,3 +1,5 @@
+#include "onset/mesh.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -5,7 +7,6 @@
 #include <string>
 
 #include "base/mesh_data.hpp"
-#include "onset/mesh.hpp"
 
 namespace onset {
 namespace {
@@ -17,14 +18,15 @@ namespace {
 template <std::size_t N>
 std::vector<std::array<int, N>> checked(const char* what, const Indices& ids, std::ptrdiff_t vertices) {
   if (ids.rows() > 0 && ids.cols() != std::ptrdiff_t(N))
-    throw std::invalid_argument(std::string(what) + "s have " + std::to_string(ids.cols()) + " columns, not " +
-                                std::to_string(N));
+    throw std::invalid_argument(std::string(what) + "s have " + std::to_string(ids.cols()) +
+                                " columns, not " + std::to_string(N));
   std::vector<std::array<int, N>> result(std::size_t(ids.rows()));
   for (std::ptrdiff_t r = 0; r < ids.rows(); ++r)
     for (std::size_t c = 0; c < N; ++c) {
       const long long v = ids(r, c);
       if (v < 0 || v >= vertices)
-        reject(what, r, "vertex " + std::to_string(v) + " is out of range, there are " + std::to_string(vertices));
+        reject(what, r,
+               "vertex " + std::to_string(v) + " is out of range, there are " + std::to_string(vertices));
       for (std::size_t k = 0; k < c; ++k)
         if (result[r][k] == v) reject(what, r, "vertex " + std::to_string(v) + " is repeated");
       result[r][c] = int(v);
@@ -58,7 +60,8 @@ Mesh::Mesh(std::ptrdiff_t vertices, const Indices& faces) {
   data_ = std::make_shared<MeshData>(make_data(vertices, edge_list(faces), std::move(F)));
 }
 
-Mesh::Mesh(const Positions& rest, const Indices& edges, const Indices& faces) : Mesh(rest.rows(), edges, faces) {}
+Mesh::Mesh(const Positions& rest, const Indices& edges, const Indices& faces)
+    : Mesh(rest.rows(), edges, faces) {}
 Mesh::Mesh(const Positions& rest, const Indices& faces) : Mesh(rest.rows(), faces) {}
 
 std::ptrdiff_t Mesh::num_vertices() const { return data_->num_vertices; }

@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::size_t kBlocksATask = 16;
 
-std::tuple<int, int, int> identity(const FoundPair& f) { return {int(f.kind), f.result.pair.a, f.result.pair.b}; }
+std::tuple<int, int, int> identity(const FoundPair& f) {
+  return {int(f.kind), f.result.pair.a, f.result.pair.b};
+}
 
 class Pass {
  public:
@@ -49,7 +51,8 @@ class Pass {
 
   bool ended() const { return keep_ == Keep::any && horizon_.load(std::memory_order_relaxed) < 1; }
 
-  // Keeps the task's first limiting pair only. The horizon is only ever an early-out: results do not depend on it.
+  // Keeps the task's first limiting pair only. The horizon is only ever an early-out: results do not depend
+  // on it.
   void shrink_horizon(Task& task) {
     if (task.results.empty()) return;
     std::size_t best = 0;
@@ -69,8 +72,10 @@ class Pass {
     stats.add(task.scratch.stats);
     for (const PairResult& r : task.results) {
       const FoundPair f{kind, r};
-      if (keep_ == Keep::all || found_.empty()) found_.push_back(f);
-      else if (limits_before(f, found_[0])) found_[0] = f;
+      if (keep_ == Keep::all || found_.empty())
+        found_.push_back(f);
+      else if (limits_before(f, found_[0]))
+        found_[0] = f;
     }
   }
 
@@ -87,7 +92,8 @@ class Pass {
 bool before(const FoundPair& x, const FoundPair& y) { return identity(x) < identity(y); }
 
 bool limits_before(const FoundPair& x, const FoundPair& y) {
-  return x.result.step_limit != y.result.step_limit ? x.result.step_limit < y.result.step_limit : before(x, y);
+  return x.result.step_limit != y.result.step_limit ? x.result.step_limit < y.result.step_limit
+                                                    : before(x, y);
 }
 
 PassResult run_pass(const BroadPhase& broad, const NarrowPhase& narrow, Keep keep, double horizon) {

@@ -1,4 +1,5 @@
-// One pass of the pipeline: the broad phase streams batches into the narrow phase, and the results into a collector.
+// One pass of the pipeline: the broad phase streams batches into the narrow phase, and the results into a
+// collector.
 #pragma once
 
 #include <atomic>
@@ -20,8 +21,9 @@ bool before(const FoundPair& x, const FoundPair& y);
 // Ordered by (step_limit, kind, a, b): the order of limiting pairs.
 bool limits_before(const FoundPair& x, const FoundPair& y);
 
-// What a pass keeps. all: every pair that is not free. limiting: the first in the order of limits_before only, and pairs
-// certified beyond the best so far are dropped on the way. any: as limiting, and the pass ends early.
+// What a pass keeps. all: every pair that is not free. limiting: the first in the order of limits_before
+// only, and pairs certified beyond the best so far are dropped on the way. any: as limiting, and the pass
+// ends early.
 enum class Keep { all, limiting, any };
 
 struct PassResult {

@@ -14,7 +14,9 @@ namespace {
 
 class Clock {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -34,7 +36,8 @@ struct Scene {
     stats.threads = current_threads();
     stats.kernel = kernel_name(resolve_kernel(options.kernel));
     if (motion.status != Outcome::free) return;
-    describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options, stats);
+    describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options,
+                      stats);
     broad = make_broad_phase(options.broad_phase,
                              {data, motion, 0.5 * options.min_separation, 1.0, test, options.kernel});
     stats.broad_phase = broad->name();
@@ -70,8 +73,8 @@ Pair to_pair(const Mesh& mesh, const FoundPair& f) {
   return {f.kind, f.result.pair.a, f.result.pair.b, pair_vertices(mesh.data(), f.kind, f.result.pair)};
 }
 
-StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
-                         Keep keep) {
+StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                         const Options& options, Keep keep) {
   StepResult r;
   Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, r.stats);
   r.outcome = scene.motion.status;
@@ -98,14 +101,16 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_
   return r;
 }
 
-bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options) {
+bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                            const Options& options) {
   check(options);
   StepResult r;
   in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::any); });
   return r.outcome == Outcome::free;
 }
 
-ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options) {
+ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                               const Options& options) {
   check(options);
   ActiveSet set;
   in_arena(options.threads, [&] {
@@ -130,8 +135,8 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
 
 namespace {
 
-void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::vector<std::array<int, 2>>& pairs,
-                     std::int64_t& count) {
+void list_candidates(const BroadPhase& broad, PairKind kind, bool list,
+                     std::vector<std::array<int, 2>>& pairs, std::int64_t& count) {
   std::mutex mutex;
   struct Task {
     bool list;
@@ -156,8 +161,8 @@ void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::vec
 
 }  // namespace
 
-Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
-                              bool list) {
+Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                              const Options& options, bool list) {
   check(options);
   Candidates c;
   in_arena(options.threads, [&] {

@@ -12,8 +12,10 @@ namespace {
 MeshData single_pair(PairKind kind) {
   MeshData mesh;
   mesh.num_vertices = 4;
-  if (kind == PairKind::vertex_face) mesh.faces = {{1, 2, 3}};
-  else mesh.edges = {{0, 1}, {2, 3}};
+  if (kind == PairKind::vertex_face)
+    mesh.faces = {{1, 2, 3}};
+  else
+    mesh.edges = {{0, 1}, {2, 3}};
   return mesh;
 }
 

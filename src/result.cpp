@@ -4,13 +4,20 @@ namespace onset {
 
 const char* to_string(Outcome outcome) {
   switch (outcome) {
-    case Outcome::free: return "free";
-    case Outcome::contact: return "contact";
-    case Outcome::initial_contact: return "initial_contact";
-    case Outcome::initial_separating: return "initial_separating";
-    case Outcome::budget: return "budget";
-    case Outcome::non_finite: return "non_finite";
-    case Outcome::out_of_range: return "out_of_range";
+    case Outcome::free:
+      return "free";
+    case Outcome::contact:
+      return "contact";
+    case Outcome::initial_contact:
+      return "initial_contact";
+    case Outcome::initial_separating:
+      return "initial_separating";
+    case Outcome::budget:
+      return "budget";
+    case Outcome::non_finite:
+      return "non_finite";
+    case Outcome::out_of_range:
+      return "out_of_range";
   }
   return "unknown";
 }

@@ -12,12 +12,13 @@ namespace onset {
 
 struct MeshData;  // base/mesh_data.hpp
 
-// Immutable after construction apart from the set_ functions; const calls from any number of threads are safe. Copies share
-// their data until one of them is changed.
+// Immutable after construction apart from the set_ functions; const calls from any number of threads are
+// safe. Copies share their data until one of them is changed.
 class ONSET_API Mesh {
  public:
   // `vertices`: #V, the number of rows of every positions matrix. `edges`: #E x 2; `faces`: #F x 3. Throws
-  // std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, or a wrong number of columns.
+  // std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, or a wrong
+  // number of columns.
   Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces);
   // As above with edges derived from the faces: onset::edges(faces), the order of igl::edges.
   Mesh(std::ptrdiff_t vertices, const Indices& faces);
@@ -31,8 +32,9 @@ class ONSET_API Mesh {
   std::array<int, 2> edge(std::ptrdiff_t row) const;
   std::array<int, 3> face(std::ptrdiff_t row) const;
 
-  // Thickness of each vertex (#V values >= 0, model length): a pair must stay apart by Options::min_separation plus the
-  // largest thickness among the vertices of each of its two primitives. Throws std::invalid_argument naming the row.
+  // Thickness of each vertex (#V values >= 0, model length): a pair must stay apart by
+  // Options::min_separation plus the largest thickness among the vertices of each of its two primitives.
+  // Throws std::invalid_argument naming the row.
   void set_thickness(const std::vector<double>& thickness);
 
   const MeshData& data() const { return *data_; }

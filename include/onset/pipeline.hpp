@@ -8,12 +8,14 @@
 
 namespace onset {
 
-// All calls: x_t0, x_t1 are #V x 3 positions at the two ends of a linear motion, t in [0, 1]. Wrong row counts and options
-// out of range throw std::invalid_argument; everything else is an outcome. Safe to call concurrently on one Mesh.
+// All calls: x_t0, x_t1 are #V x 3 positions at the two ends of a linear motion, t in [0, 1]. Wrong row
+// counts and options out of range throw std::invalid_argument; everything else is an outcome. Safe to call
+// concurrently on one Mesh.
 
-// The largest step that is certainly free of contact (paper, section 7.2). Never later than the exact first contact.
-ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                                                     const Options& options = {});
+// The largest step that is certainly free of contact (paper, section 7.2). Never later than the exact first
+// contact.
+ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_t0,
+                                                     const Positions& x_t1, const Options& options = {});
 
 // Whether the whole step is certified free of contact. Stops at the first pair that is not.
 ONSET_API bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,

@@ -19,8 +19,9 @@ struct EdgeEdgeQuery {
   std::array<Point, 4> t0, t1;  // edge a: 0, 1; edge b: 2, 3
 };
 
-// Touching counts as contact. An unset Options::tolerance is relative to this query's own extent. Threads, broad phase are
-// ignored. Throws std::invalid_argument for options out of range; NaN, infinities, |x| > 2^1020 are outcomes.
+// Touching counts as contact. An unset Options::tolerance is relative to this query's own extent. Threads,
+// broad phase are ignored. Throws std::invalid_argument for options out of range; NaN, infinities, |x| >
+// 2^1020 are outcomes.
 ONSET_API QueryResult vertex_face_ccd(const VertexFaceQuery& query, const Options& options = {});
 ONSET_API QueryResult edge_edge_ccd(const EdgeEdgeQuery& query, const Options& options = {});
 

@@ -11,12 +11,14 @@ namespace onset {
 
 enum class PairKind : std::uint8_t { vertex_face, edge_edge };
 
-// How a pair, or the whole step, ended. Everything a running solver can produce is one of these, never an exception.
+// How a pair, or the whole step, ended. Everything a running solver can produce is one of these, never an
+// exception.
 enum class Outcome : std::uint8_t {
   free,                // certified: farther apart than the separation for the whole step
   contact,             // comes within separation + tolerance at toi > 0
   initial_contact,     // touching, or closer than the separation, at t = 0 and pressing: toi 0
-  initial_separating,  // the same at t = 0, but the motion never brings the pair closer than it starts: does not limit a step
+  initial_separating,  // the same at t = 0, but the motion never brings the pair closer than it starts: does
+                       // not limit a step
   budget,              // max_checks spent: free until toi, undecided after
   non_finite,          // a position is NaN or infinite: step 0, `vertex` names the first
   out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
@@ -37,26 +39,29 @@ struct PairCounts {
 
 // Filled by every call; cheap enough to be always on.
 struct Stats {
-  PairCounts swept;       // pairs whose swept boxes overlap, where the call counted them (candidates)
-  PairCounts candidates;  // pairs handed to the narrow phase
-  PairCounts contacts;    // pairs not certified free
-  PairCounts after_culls; // candidates that the single-precision culls could not separate
-  PairCounts inclusion;   // candidates that needed the inclusion root finder
-  PairCounts budget;      // candidates that spent max_checks
+  PairCounts swept;        // pairs whose swept boxes overlap, where the call counted them (candidates)
+  PairCounts candidates;   // pairs handed to the narrow phase
+  PairCounts contacts;     // pairs not certified free
+  PairCounts after_culls;  // candidates that the single-precision culls could not separate
+  PairCounts inclusion;    // candidates that needed the inclusion root finder
+  PairCounts budget;       // candidates that spent max_checks
   std::int64_t checks = 0, max_checks_of_a_pair = 0;
-  double seconds_broad = 0, seconds_narrow = 0, seconds_total = 0;  // broad: motion, boxes and tree; narrow: traversal
-                                                                    // and certificates, which are fused
+  double seconds_broad = 0, seconds_narrow = 0,
+         seconds_total = 0;       // broad: motion, boxes and tree; narrow: traversal
+                                  // and certificates, which are fused
   double tolerance = 0;           // model length: Options::tolerance, or the relative one times `extent`
   double achieved_tolerance = 0;  // the largest distance beyond the separation at which a pair was reported
   double extent = 0;              // R: the largest corner difference that an overlapping pair can have
-  std::array<double, 3> error_bound{};  // per axis: bound on the rounding error of a corner anywhere in the scene
+  std::array<double, 3>
+      error_bound{};  // per axis: bound on the rounding error of a corner anywhere in the scene
   int threads = 0;
   const char* kernel = "";
   const char* broad_phase = "";
 };
 
 struct StepResult {
-  double step = 0;  // in [0, 1]: x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step), exact motion
+  double step =
+      0;  // in [0, 1]: x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step), exact motion
   Outcome outcome = Outcome::free;
   Pair limiting;    // the pair that limits the step (a = -1 where none does)
   int vertex = -1;  // the offending vertex of non_finite and out_of_range
@@ -70,7 +75,8 @@ struct ActiveSet {
   std::vector<std::array<int, 4>> vertices;
   std::vector<double> toi;      // certified: the pair is apart on [0, toi); never later than the exact time
   std::vector<Outcome> status;  // contact, initial_contact, initial_separating or budget
-  Outcome outcome = Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is empty
+  Outcome outcome =
+      Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is empty
   int vertex = -1;
   Stats stats;
 
@@ -88,7 +94,8 @@ struct QueryResult {
   bool collides() const { return outcome != Outcome::free; }
 };
 
-// The pairs whose swept boxes (of the motion, widened by half the separation each) overlap and share no vertex.
+// The pairs whose swept boxes (of the motion, widened by half the separation each) overlap and share no
+// vertex.
 struct Candidates {
   std::vector<std::array<int, 2>> vertex_face, edge_edge;  // sorted; empty when only counts were asked for
   PairCounts counts;

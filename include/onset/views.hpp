@@ -9,10 +9,11 @@
 
 namespace onset {
 
-// #V x 3 positions (model length), one row a vertex. Built implicitly from any Eigen matrix (column- or row-major, a Map,
-// a block, float or double), from a flat vector of 3 #V degrees of freedom (x y z of vertex 0, x y z of vertex 1, ...), or
-// from interleaved memory. Dense double storage is viewed without a copy and must outlive the call; anything else
-// (expressions such as `x + dx`, float matrices) is evaluated into a copy that the view owns.
+// #V x 3 positions (model length), one row a vertex. Built implicitly from any Eigen matrix (column- or
+// row-major, a Map, a block, float or double), from a flat vector of 3 #V degrees of freedom (x y z of vertex
+// 0, x y z of vertex 1, ...), or from interleaved memory. Dense double storage is viewed without a copy and
+// must outlive the call; anything else (expressions such as `x + dx`, float matrices) is evaluated into a
+// copy that the view owns.
 class Positions {
  public:
   Positions(const double* xyz, std::ptrdiff_t vertices)
@@ -28,14 +29,17 @@ class Positions {
              row_major ? m.derived().outerStride() : m.derived().innerStride(),
              row_major ? m.derived().innerStride() : m.derived().outerStride());
     } else {
-      const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic> evaluated = m.derived().template cast<double>();
+      const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic> evaluated =
+          m.derived().template cast<double>();
       owned_ = std::make_shared<std::vector<double>>(evaluated.data(), evaluated.data() + evaluated.size());
       assign(owned_->data(), evaluated.rows(), evaluated.cols(), 1, evaluated.rows());
     }
   }
 
   std::ptrdiff_t rows() const { return rows_; }
-  std::ptrdiff_t cols() const { return cols_; }  // 3, or what the caller passed by mistake: checked by the callee
+  std::ptrdiff_t cols() const {
+    return cols_;
+  }  // 3, or what the caller passed by mistake: checked by the callee
   double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const {
     return data_[row * row_stride_ + col * col_stride_];
   }
@@ -44,7 +48,8 @@ class Positions {
   void assign(const double* data, std::ptrdiff_t rows, std::ptrdiff_t cols, std::ptrdiff_t row_stride,
               std::ptrdiff_t col_stride) {
     data_ = data;
-    if ((cols == 1 || rows == 1) && (rows * cols) % 3 == 0 && !(rows == 1 && cols == 3)) {  // flat degrees of freedom
+    if ((cols == 1 || rows == 1) && (rows * cols) % 3 == 0 &&
+        !(rows == 1 && cols == 3)) {  // flat degrees of freedom
       const std::ptrdiff_t stride = cols == 1 ? row_stride : col_stride;
       rows_ = rows * cols / 3, cols_ = 3, row_stride_ = 3 * stride, col_stride_ = stride;
     } else {
@@ -62,7 +67,8 @@ class Indices {
  public:
   Indices() = default;
   template <class Derived>
-  Indices(const Eigen::DenseBase<Derived>& m) : rows_(m.rows()), cols_(m.cols()) {  // NOLINT: implicit by design
+  Indices(const Eigen::DenseBase<Derived>& m)
+      : rows_(m.rows()), cols_(m.cols()) {  // NOLINT: implicit by design
     static_assert(std::is_integral_v<typename Derived::Scalar>, "vertex ids are integers");
     const auto& e = m.derived().eval();
     ids_.reserve(std::size_t(e.size()));
@@ -71,7 +77,9 @@ class Indices {
   }
   std::ptrdiff_t rows() const { return rows_; }
   std::ptrdiff_t cols() const { return cols_; }
-  long long operator()(std::ptrdiff_t row, std::ptrdiff_t col) const { return ids_[std::size_t(row * cols_ + col)]; }
+  long long operator()(std::ptrdiff_t row, std::ptrdiff_t col) const {
+    return ids_[std::size_t(row * cols_ + col)];
+  }
 
  private:
   std::vector<long long> ids_;

@@ -1,0 +1,148 @@
+#include "narrowphase/initial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/orientation.hpp"
+
+namespace onset {
+namespace {
+
+constexpr double kU = 0x1p-53;
+constexpr int kHalvings = 24;
+
+struct Vec {
+  double x[3];
+};
+double dot(const Vec& a, const Vec& b) { return (a.x[0] * b.x[0] + a.x[1] * b.x[1]) + a.x[2] * b.x[2]; }
+Vec cross(const Vec& a, const Vec& b) {
+  return {{a.x[1] * b.x[2] - a.x[2] * b.x[1], a.x[2] * b.x[0] - a.x[0] * b.x[2],
+           a.x[0] * b.x[1] - a.x[1] * b.x[0]}};
+}
+Vec scaled(double s, const Vec& a) { return {{s * a.x[0], s * a.x[1], s * a.x[2]}}; }
+Vec sum(const Vec& a, const Vec& b) { return {{a.x[0] + b.x[0], a.x[1] + b.x[1], a.x[2] + b.x[2]}}; }
+// a / |a|, or 0.
+Vec unit(const Vec& a) {
+  const double n = std::sqrt(dot(a, a));
+  return n > 0x1p-300 ? scaled(1 / n, a) : Vec{};
+}
+
+struct Hull {
+  int count;
+  Vec c[4];
+  Hull(const Corners& corners, double t) : count(corners.count) {
+    double at[4][3];
+    corners.at(t, at);
+    for (int k = 0; k < count; ++k) c[k] = {{at[k][0], at[k][1], at[k][2]}};
+  }
+  double least(const Vec& n) const {
+    double r = dot(n, c[0]);
+    for (int k = 1; k < count; ++k) r = std::min(r, dot(n, c[k]));
+    return r;
+  }
+};
+
+bool same_at_both_ends(const Corners& corners) {
+  for (int k = 0; k < corners.count; ++k)
+    for (int a = 0; a < 3; ++a)
+      if (corners.c[0][k][a] != corners.c[1][k][a]) return false;
+  return true;
+}
+
+// The plane of the pair at t = 0 (the face, or both edges' directions), and the exact side of it.
+struct Side {
+  Vec normal;
+  int sign;  // of normal . c_k
+  bool allows(const Vec& n) const {
+    const double s = dot(n, normal);
+    if (std::fabs(s) < 1e-9) return true;
+    return sign == 0 || (sign != kUnknownSide && (s > 0) == (sign > 0));
+  }
+};
+Side side_at_start(const InitialCase& c) {
+  const Corners& q = c.corners;
+  const auto edge = [&](int i) { return Vec{{q.e[0][i][0], q.e[0][i][1], q.e[0][i][2]}}; };
+  const double* p[4];
+  for (int i = 0; i < 4; ++i) p[i] = c.pairs.x + std::ptrdiff_t(c.pairs.vertices[c.row][i]) * kMotionStride;
+  // vertex-face: (v1 - v0) x (v2 - v1) . (p - v0), edge-edge: (a1 - a0) x (b1 - b0) . (a0 - b0).
+  const int sign = c.kind == PairKind::vertex_face ? orientation(p[2], p[3], p[0], p[1])
+                                                   : orientation(p[1], p[2], p[3], p[0]);
+  return {unit(cross(edge(0), edge(1))), sign};
+}
+
+// A direction n with n.c >= -noise at both times, strictly positive at the second; the mean of the feasible
+// extreme rays of that cone. Zero where there is none.
+Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, double noise) {
+  Vec p[8];
+  int count = 0;
+  for (int k = 0; k < from.count; ++k) p[count++] = unit(from.c[k]), p[count++] = unit(to.c[k]);
+  Vec total{}, widest{};
+  double widest_size = 0;
+  const auto consider = [&](const Vec& ray) {
+    for (const double s : {1.0, -1.0}) {
+      const Vec n = unit(scaled(s, ray));
+      if (from.least(n) < -noise || to.least(n) < -noise || !side.allows(n)) continue;
+      total = sum(total, n);
+    }
+  };
+  for (int i = 0; i < count; ++i) {
+    consider(p[i]);
+    for (int j = 0; j < i; ++j) {
+      const Vec ray = cross(p[i], p[j]);
+      if (dot(ray, ray) > widest_size) widest_size = dot(ray, ray), widest = ray;
+      if (dot(ray, ray) > 1e-24) consider(ray);
+    }
+  }
+  for (int i = 0; i < count; ++i) consider(cross(widest, p[i]));  // the cone's rays when all lie in one plane
+  return unit(total);
+}
+
+// The latest time from t on, by halving, until which the pair parts along a direction chosen for it; t if
+// there is none.
+template <class Parts>
+double latest(double t, Parts&& parts) {
+  double length = 1 - t;
+  for (int i = 0; i < kHalvings; ++i, length *= 0.5) {
+    const double tb = i == 0 ? 1 : t + length;
+    if (tb > t && parts(tb)) return tb;
+  }
+  return t;
+}
+
+}  // namespace
+
+Parting find_parting(const InitialCase& c) {
+  Parting r;
+  if (same_at_both_ends(c.corners)) {
+    r.t = 1;
+    return r;
+  }
+  const double noise = 16 * kU * c.corners.rho;
+  const auto look = c.kind == PairKind::vertex_face ? c.kernels.look_vertex_face : c.kernels.look_edge_edge;
+  for (int rounds = 0; rounds < 64 && r.t < 1; ++rounds) {
+    const Hull here(c.corners, r.t);
+    Vec w;
+    look(c.pairs, c.row, r.t, w.x);
+    const double before = here.least(w);
+    double reached = r.t;
+    Vec n = w;
+    if (before > 4 * noise) {
+      reached = latest(r.t, [&](double tb) { return Hull(c.corners, tb).least(w) >= before; });
+    } else if (r.t == 0) {
+      const Side side = side_at_start(c);
+      reached = latest(r.t, [&](double tb) {
+        const Hull there(c.corners, tb);
+        n = dividing_direction(here, there, side, noise);
+        return here.least(n) >= -noise && there.least(n) > 4 * noise && side.allows(n);
+      });
+    }
+    if (reached == r.t) return r;
+    r.t = reached;
+    r.excess = Hull(c.corners, r.t).least(n) - 8 * kU * c.corners.rho - c.separation;
+    r.apart = r.excess > 0;
+    if (r.apart) return r;
+  }
+  return r;
+}
+
+}  // namespace onset

@@ -1,0 +1,34 @@
+// Pairs that touch, or are closer than the separation, at t = 0: does the motion press them together or part
+// them?
+#pragma once
+
+#include "narrowphase/corners.hpp"
+#include "narrowphase/kernel.hpp"
+
+namespace onset {
+
+struct InitialCase {
+  const Corners& corners;
+  const KernelPairs& pairs;
+  int row;  // the pair, in `pairs`
+  PairKind kind;
+  const KernelTable& kernels;
+  double separation;  // d, scaled as the corners
+};
+
+// Until `t` the pair never comes closer than it is at t = 0, up to the rounding bound 16u rho; nothing is
+// known after it. apart: at t it is farther apart than d, by `excess`, so advancement can go on from there.
+struct Parting {
+  double t = 0;
+  bool apart = false;
+  double excess = 0;
+};
+
+// Closer than d but not touching: along the closest direction w the least product with a corner is a concave
+// function of time and a lower bound of the distance; where it has not fallen at some later time, it has not
+// fallen between. Touching: a direction n that has the whole pair on its positive side at 0 (up to rounding)
+// and strictly so at t keeps it there in between; the side itself is decided exactly, so a vertex a hair
+// above a face is never let through it. Motion that stays in touch is pressing, unless nothing moves at all.
+Parting find_parting(const InitialCase& c);
+
+}  // namespace onset

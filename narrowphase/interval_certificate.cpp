@@ -1,0 +1,152 @@
+#include "narrowphase/interval_certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace onset {
+namespace {
+
+constexpr double kU = 0x1p-53;
+
+struct Vec {
+  double x[3];
+  double operator[](int a) const { return x[a]; }
+  double& operator[](int a) { return x[a]; }
+};
+Vec operator+(Vec a, Vec b) { return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}}; }
+Vec operator-(Vec a, Vec b) { return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}}; }
+Vec operator*(double s, Vec a) { return {{s * a[0], s * a[1], s * a[2]}}; }
+double dot(Vec a, Vec b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+Vec cross(Vec a, Vec b) {
+  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+Vec largest(Vec a, Vec b) {
+  Vec r;
+  for (int i = 0; i < 3; ++i) r[i] = std::max(std::fabs(a[i]), std::fabs(b[i]));
+  return r;
+}
+Vec vec(const double (&p)[3]) { return {{p[0], p[1], p[2]}}; }
+Vec lerp(Vec a, Vec b, double t) { return (1 - t) * a + t * b; }
+double dual_norm(Vec m, bool maximum_norm) {
+  return maximum_norm ? std::fabs(m[0]) + std::fabs(m[1]) + std::fabs(m[2])
+                      : std::sqrt(dot(m, m)) * (1 + 0x1p-50);
+}
+
+// An edge and the two classes of corners modulo it.
+struct EdgeView {
+  int edge;
+  int first[2], second[2];  // corners that differ by the edge; equal where the class has one
+};
+constexpr EdgeView kEdgeEdge[] = {{0, {0, 2}, {1, 3}}, {1, {0, 1}, {2, 3}}};
+constexpr EdgeView kVertexFace[] = {{0, {0, 1}, {2, 2}}, {1, {1, 2}, {0, 0}}, {2, {2, 0}, {1, 1}}};
+
+constexpr int kPoints = 6;
+
+// The direction with the largest smallest cosine to all points: the centre of their smallest cap, found by
+// trying the bisector of every pair and the centre of every triple. Any direction is safe to use.
+Vec centre_of_cap(const Vec (&points)[kPoints]) {
+  Vec unit[kPoints];
+  for (int i = 0; i < kPoints; ++i) {
+    const double n = std::sqrt(dot(points[i], points[i]));
+    unit[i] = n > 0 ? (1 / n) * points[i] : points[i];
+  }
+  Vec best{};
+  double best_cosine = -2;
+  const auto consider = [&](Vec m) {
+    const double n = std::sqrt(dot(m, m));
+    if (!(n > 0x1p-100)) return;
+    m = (1 / n) * m;
+    double cosine = 2;
+    for (const Vec& p : unit) cosine = std::min(cosine, dot(m, p));
+    if (cosine > best_cosine) best_cosine = cosine, best = m;
+  };
+  for (int i = 0; i < kPoints; ++i)
+    for (int j = i + 1; j < kPoints; ++j) {
+      consider(unit[i] + unit[j]);
+      for (int k = j + 1; k < kPoints; ++k) {
+        const Vec n = cross(unit[j] - unit[i], unit[k] - unit[i]);
+        consider(n);
+        consider(-1.0 * n);
+      }
+    }
+  return best;
+}
+
+class Interval {
+ public:
+  Interval(const Corners& corners, double ta, double tb, double wanted, bool maximum_norm)
+      : corners_(corners), ta_(ta), tb_(tb), wanted_(wanted), maximum_norm_(maximum_norm) {}
+
+  bool certified() const {
+    if (corners_.count == 4) {
+      for (const EdgeView& view : kEdgeEdge)
+        if (along(view)) return true;
+    } else {
+      for (const EdgeView& view : kVertexFace)
+        if (along(view)) return true;
+    }
+    return false;
+  }
+
+ private:
+  Vec corner(int k, int end) const { return vec(corners_.c[end][k]); }
+  Vec edge(int i, int end) const { return vec(corners_.e[end][i]); }
+
+  // Of a class's two corners, the one that stays nearer: its products carry the smaller error.
+  int nearer(const int (&members)[2]) const {
+    const auto size = [&](int k) {
+      const Vec r = largest(corner(k, 0), corner(k, 1));
+      return dot(r, r);
+    };
+    return size(members[1]) < size(members[0]) ? members[1] : members[0];
+  }
+
+  bool along(const EdgeView& view) const {
+    const Vec e0 = edge(view.edge, 0), e1 = edge(view.edge, 1), span = largest(e0, e1);
+    const Vec ea = lerp(e0, e1, ta_), eb = lerp(e0, e1, tb_);
+    const int member[2] = {nearer(view.first), nearer(view.second)};
+    Vec points[kPoints];
+    for (int i = 0; i < 2; ++i) {
+      const Vec c0 = corner(member[i], 0), c1 = corner(member[i], 1);
+      const Vec ca = lerp(c0, c1, ta_), cb = lerp(c0, c1, tb_);
+      points[3 * i] = cross(ea, ca);
+      points[3 * i + 1] = 0.5 * (cross(ea, cb) + cross(eb, ca));
+      points[3 * i + 2] = cross(eb, cb);
+    }
+    const Vec m = centre_of_cap(points);
+    // Separation: |w(s)| <= |m| |e(s)|, and |m x e|_1 <= 2 |m|_2 |e|_2 for the dual of the maximum norm.
+    const double reach = std::sqrt(std::max(dot(ea, ea), dot(eb, eb))) * (1 + 0x1p-48);
+    const double separation = wanted_ * dual_norm(m, false) * reach * (maximum_norm_ ? 2 : 1);
+    for (int i = 0; i < 2; ++i) {
+      // In units of u sum |m_a| P_a: e and c 4 each at ta (difference 1, lerp 3), product 1, difference 1,
+      // mean 1, dot 3: 14.
+      const Vec r = largest(corner(member[i], 0), corner(member[i], 1));
+      double error = 0;
+      for (int a = 0; a < 3; ++a) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        error += std::fabs(m[a]) * (span[b] * r[c] + span[c] * r[b]);
+      }
+      const double bound = (16 * kU * error + separation) * (1 + 0x1p-48) + 0x1p-900;
+      for (int j = 0; j < 3; ++j)
+        if (!(dot(m, points[3 * i + j]) > bound)) return false;
+    }
+    return true;
+  }
+
+  const Corners& corners_;
+  const double ta_, tb_, wanted_;
+  const bool maximum_norm_;
+};
+
+}  // namespace
+
+double certify_interval(const Corners& corners, double t, double wanted, bool maximum_norm) {
+  double length = 1 - t;
+  for (int tries = 0; tries < 6; ++tries, length *= 0.25) {
+    const double tb = tries == 0 ? 1 : t + length;
+    if (tb > t && Interval(corners, t, tb, wanted, maximum_norm).certified()) return tb;
+  }
+  return t;
+}
+
+}  // namespace onset
