@@ -1,8 +1,9 @@
 #include "broadphase/box_tree.hpp"
 
+#include <algorithm>
+
 #include "base/dispatch.hpp"
 #include "base/parallel.hpp"
-#include "broadphase/space_curve.hpp"
 
 namespace onset {
 
@@ -17,51 +18,22 @@ bool own_supports(const BroadPhaseInput& input, Primitive kind) {
   return kind != Primitive::vertex && !input.mesh.thickness.empty();
 }
 
-// Twice the centre of a record's boxes, or the sum of both where there are two ends.
-void centre(const float* record, bool motion, float* out) {
-  for (int i = 0; i < 3; ++i) out[i] = record[3 + i] - record[i];
-  if (motion)
-    for (int i = 0; i < 3; ++i) out[i] += record[kBlock + 3 + i] - record[kBlock + i];
-}
-
 }  // namespace
 
-BoxTree::BoxTree(const BroadPhaseInput& input, const FloatMap& map, const Supports& vertices, Primitive kind)
-    : kind_(kind), count_(primitive_count(input.mesh, kind)) {
-  if (count_ == 0) return;
-  sort(input.mesh, vertices, input.test == BoxTest::motion);
-  link(input.mesh);
-  refit(input, map, vertices);
-}
-
-void BoxTree::sort(const MeshData& mesh, const Supports& vertices, bool motion) {
-  const int each = vertices_each(kind_);
-  std::vector<float> centres(3 * count_);
-  parallel_ranges(count_, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto ids = primitive_vertices(mesh, kind_, int(i));
-      float* sum = &centres[3 * i];
-      for (int k = 0; k < each; ++k) {
-        float c[3];
-        centre(vertices.record(std::size_t(ids[std::size_t(k)])), motion, c);
-        for (int a = 0; a < 3; ++a) sum[a] += c[a];
-      }
-    }
-  });
-  ids_.assign(blocks() * kBlock, 0);
-  order_along_curve(centres.data(), count_, ids_.data());
-}
-
 // Unused lanes refer to the record after the last.
-void BoxTree::link(const MeshData& mesh) {
-  const std::size_t each = std::size_t(vertices_each(kind_));
-  for (std::size_t slot = count_; slot < ids_.size(); ++slot) ids_[slot] = int(count_);
-  vertices_.assign(ids_.size() * each, mesh.num_vertices);
-  parallel_ranges(count_, kGrain, [&](std::size_t first, std::size_t last) {
+BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const VertexOrder& order)
+    : kind_(kind), count_(primitive_count(mesh, kind)) {
+  const std::vector<Ranked> primitives = order_of_primitives(mesh, kind, order);
+  const std::size_t each = std::size_t(vertices_each(kind_)), slots = (count_ + kBlock - 1) / kBlock * kBlock;
+  ids_ = AlignedArray<int>(slots), vertices_ = AlignedArray<int>(slots * each);
+  parallel_ranges(slots, kGrain, [&](std::size_t first, std::size_t last) {
+    const Ranked none{mesh.num_vertices, mesh.num_vertices, mesh.num_vertices, int(count_)};
     for (std::size_t slot = first; slot < last; ++slot) {
-      const auto ids = primitive_vertices(mesh, kind_, ids_[slot]);
+      const Ranked& p = slot < count_ ? primitives[slot] : none;
+      const int ranks[3] = {p.lowest, p.highest, p.middle};
+      ids_[slot] = p.id;
       for (std::size_t k = 0; k < each; ++k)
-        vertices_[(slot / kBlock * each + k) * kBlock + slot % kBlock] = ids[k];
+        vertices_[(slot / kBlock * each + k) * kBlock + slot % kBlock] = ranks[k];
     }
   });
 }
@@ -74,27 +46,32 @@ void BoxTree::lay_out(bool motion) {
     total += level;
     level = (level + kBlock - 1) / kBlock;
   } while (view_.levels < 2 || view_.blocks[view_.levels - 1] > 1);
-  const std::size_t size = std::size_t(rows_of(motion) * kBlock);
-  if (boxes_.size() < total * size) boxes_ = AlignedArray<float>(total * size);
+  const std::size_t size = std::size_t(kRowsOf[motion] * kBlock), box = std::size_t(kBoxStrideOf[motion]);
+  if (boxes_.size() < total * (size + box)) boxes_ = AlignedArray<float>(total * (size + box));
   float* place = boxes_.data();
   for (int l = 0; l < view_.levels; ++l) {
     view_.level[l] = place;
     place += std::size_t(view_.blocks[l]) * size;
   }
+  for (int l = 0; l < view_.levels; ++l) {
+    view_.box[l] = place;
+    place += std::size_t(view_.blocks[l]) * box;
+  }
   view_.ids = ids_.data();
   view_.vertices = vertices_.data();
-  view_.vertices_each = vertices_each(kind_);
 }
 
-void BoxTree::refit(const BroadPhaseInput& input, const FloatMap& map, const Supports& vertices) {
+void BoxTree::fit(const BroadPhaseInput& input, const FloatMap& map, const Supports& vertices) {
   if (count_ == 0) return;
   const bool motion = input.test == BoxTest::motion, own = own_supports(input, kind_);
   const BvhKernel& kernel = bvh_kernel(input.kernel);
-  const Supports mine = own ? primitive_supports(input, map, kind_) : Supports{};
+  const Supports mine = own ? make_supports(input, map, kind_, ids_.data(), count_) : Supports{};
   const Supports& supports = own ? mine : vertices;
   rounded_axes_ = supports.rounded_axes;
   lay_out(motion);
-  const FitArguments fit{view_, motion, supports.records.data(), own ? ids_.data() : vertices_.data(),
+  std::vector<int> slots(own ? ids_.size() : 0);
+  for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = int(std::min(slot, count_));
+  const FitArguments fit{view_, motion, supports.records.data(), own ? slots.data() : vertices_.data(),
                          own ? 1 : vertices_each(kind_)};
   parallel_ranges(blocks(), kGrain,
                   [&](std::size_t first, std::size_t last) { kernel.fit_leaves(fit, first, last); });

@@ -6,6 +6,7 @@
 #include "base/aligned.hpp"
 #include "broadphase/bvh_kernel.hpp"
 #include "broadphase/supports.hpp"
+#include "broadphase/vertex_order.hpp"
 
 namespace onset {
 
@@ -19,26 +20,24 @@ const BvhKernel& bvh_kernel(Kernel kernel);  // scalar or avx2
 
 class BoxTree {
  public:
-  // `vertices`: of all vertices, as vertex_supports gives them; used where no primitive has an inflation of
-  // its own.
-  BoxTree(const BroadPhaseInput& input, const FloatMap& map, const Supports& vertices, Primitive kind);
+  BoxTree(const MeshData& mesh, Primitive kind, const VertexOrder& order);
 
-  // New boxes, same order.
-  void refit(const BroadPhaseInput& input, const FloatMap& map, const Supports& vertices);
+  // New boxes. `vertices`: supports of all vertices by rank, used where no primitive has an inflation of its
+  // own.
+  void fit(const BroadPhaseInput& input, const FloatMap& map, const Supports& vertices);
 
-  std::size_t blocks() const { return (count_ + kBlock - 1) / kBlock; }
+  std::size_t units() const { return (blocks() + kBlock - 1) / kBlock; }  // of traversal: blocks at level 1
   const TreeView& view() const { return view_; }
   int rounded_axes() const { return rounded_axes_; }
 
  private:
-  void sort(const MeshData& mesh, const Supports& supports, bool own);
-  void link(const MeshData& mesh);
+  std::size_t blocks() const { return ids_.size() / kBlock; }
   void lay_out(bool motion);
 
   Primitive kind_;
   std::size_t count_;
   int rounded_axes_ = 0;
-  std::vector<int> ids_, vertices_;  // see TreeView
+  AlignedArray<int> ids_, vertices_;  // see TreeView
   AlignedArray<float> boxes_;
   TreeView view_{};
 };

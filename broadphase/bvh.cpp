@@ -14,15 +14,30 @@ constexpr std::array<Primitive, 3> kKinds{Primitive::vertex, Primitive::edge, Pr
 
 class Bvh final : public BroadPhase {
  public:
-  explicit Bvh(const BroadPhaseInput& input) { fit(input, true); }
+  explicit Bvh(const BroadPhaseInput& input)
+      : order_(make_vertex_order(input.motion, make_float_map(input.motion))) {
+    parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) trees_[k].emplace(input.mesh, kKinds[k], order_);
+    });
+    refit(input);
+  }
 
   const char* name() const override { return "bvh"; }
 
-  void refit(const BroadPhaseInput& input) override { fit(input, false); }
+  void refit(const BroadPhaseInput& input) override {
+    input_.emplace(input);
+    input_->kernel = resolve_kernel(input.kernel);
+    const FloatMap map = make_float_map(input.motion);
+    const Supports vertices =
+        make_supports(input, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());
+    parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, map, vertices);
+    });
+  }
 
   std::size_t blocks(PairKind kind) const override {
     const bool finite = input_->motion.status == Outcome::free;
-    return finite && tree(second_primitive(kind)).blocks() > 0 ? tree(first_primitive(kind)).blocks() : 0;
+    return finite && tree(second_primitive(kind)).units() > 0 ? tree(first_primitive(kind)).units() : 0;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
@@ -52,20 +67,7 @@ class Bvh final : public BroadPhase {
 
   const BoxTree& tree(Primitive kind) const { return *trees_[std::size_t(kind)]; }
 
-  void fit(const BroadPhaseInput& input, bool sort) {
-    input_.emplace(input);
-    input_->kernel = resolve_kernel(input.kernel);
-    const FloatMap map = make_float_map(input.motion);
-    const Supports vertices = vertex_supports(*input_, map);
-    parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k)
-        if (sort)
-          trees_[k].emplace(*input_, map, vertices, kKinds[k]);
-        else
-          trees_[k]->refit(*input_, map, vertices);
-    });
-  }
-
+  VertexOrder order_;
   std::optional<BroadPhaseInput> input_;
   std::array<std::optional<BoxTree>, 3> trees_;
 };

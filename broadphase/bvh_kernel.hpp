@@ -16,34 +16,38 @@ inline constexpr int kBlock = 8;
 inline constexpr float kNowhere = -0x1p126f;
 inline constexpr int kMaxLevels = 12;
 
-constexpr int rows_of(bool motion) { return motion ? 12 : 6; }
+// Indexed by whether boxes are motion boxes. (No inline functions here: the linker could keep the AVX2 copy
+// for everyone.)
+inline constexpr int kRowsOf[2] = {6, 12};
+inline constexpr int kBoxStrideOf[2] = {8, 16};
 
 // An implicit tree: lane i of block n of level l > 0 is the union of block 8 n + i of level l - 1. There are
 // at least two levels, and the last one has one block.
 struct TreeView {
   float* level[kMaxLevels];
+  float* box[kMaxLevels];  // per block: the union of its boxes, kBoxStrideOf floats, the supports first
   int blocks[kMaxLevels];
   int levels;
   const int* ids;       // 8 a leaf block
-  const int* vertices;  // vertices_each rows of 8 a leaf block
-  int vertices_each;
+  const int* vertices;  // ranks or ids; 8 a vertex of the primitive a leaf block
 };
 
 struct FitArguments {
   TreeView tree;
   bool motion;
-  const float* supports;  // rows_of(motion) used of kSupportStride floats, one record per vertex of `members`
-  const int* members;     // members_each rows of 8 a leaf block: the records whose union is the box of a lane
+  // Records of kBoxStrideOf floats: -x -y -z 0 +x +y +z 0 at t = 0, then at t = 1.
+  const float* supports;
+  const int* members;  // members_each rows of 8 a leaf block: the records whose union is the box of a lane
   int members_each;
 };
-inline constexpr int kSupportStride = 16;  // 8 at t = 0, then 8 at t = 1, the last two of each unused
 
 struct TraverseArguments {
   TreeView query, tree;
   bool motion;
-  bool self;                // one tree against itself: each unordered pair once, smaller id first
+  bool self;  // edges against edges, one tree: each unordered pair once, smaller id first; else vertices
+              // against faces
   int rounded_axes;         // bit i: equal floats on axis i need not be equal doubles
-  std::size_t first, last;  // leaf blocks of `query`
+  std::size_t first, last;  // blocks at level 1 of `query`: 64 primitives each
   // Decides pairs that only touch in float.
   bool (*touches)(const void* context, int a, int b);
   const void* touches_context;

@@ -23,9 +23,10 @@ inline F8 overlap(const float* box, int stride, const float* block) {
   return least;
 }
 
-// Lanes of `mask` whose boxes only touch the query's, in float, on an axis where that may be due to rounding.
+// Lanes of `mask` whose boxes only touch the lane box's, in float, on an axis where that may be due to
+// rounding.
 template <bool kMotion>
-inline int touching(int mask, int rounded_axes, const float* box, const float* block) {
+int touching(int mask, int rounded_axes, const float* box, const float* block) {
   int result = 0;
   for (int k = 0; k < 6; ++k) {
     if ((rounded_axes >> k % 3 & 1) == 0) continue;
@@ -37,143 +38,183 @@ inline int touching(int mask, int rounded_axes, const float* box, const float* b
   return mask & result;
 }
 
-class Output {
- public:
-  explicit Output(const TraverseArguments& arguments) : arguments_(arguments) {}
+// Entries are written eight at a time, so there is room for eight more than may count.
+constexpr int kCapacity = 256;
 
-  inline void add(int query, I8 ids, int mask) {
-    const I8 others = compress(ids, mask), same = broadcast(query);
-    int* place = &pairs_[count_].a;
-    if (arguments_.self)
-      store_interleaved(place, min(same, others), max(same, others));
-    else
-      store_interleaved(place, same, others);
-    count_ += std::size_t(count_lanes(mask));
-    if (count_ > kBatchSize - kLanes) flush();
-  }
-  void flush() {
-    if (count_ > 0) arguments_.consume(arguments_.consume_context, pairs_, count_);
-    count_ = 0;
-  }
+struct Pairs {
+  int a[kCapacity + kLanes], b[kCapacity + kLanes];
+  int count = 0;
 
- private:
-  const TraverseArguments& arguments_;
-  std::size_t count_ = 0;
-  IdPair pairs_[kBatchSize];
+  bool full() const { return count > kCapacity - kLanes; }
+  void add(I8 as, I8 bs, int lanes) {
+    store(a + count, as), store(b + count, bs);
+    count += count_lanes(lanes);
+  }
 };
 
-template <bool kMotion>
+// Two trees descended side by side. Every step is a loop over a list that writes the next list without
+// branches, eight entries at a time and as many of them counted as the test says; a list that is full is
+// emptied downward first, so memory is constant and the work depth first.
+template <bool kMotion, bool kSelf>
 class Traversal {
  public:
-  explicit Traversal(const TraverseArguments& arguments) : a_(arguments), output_(arguments) {}
+  explicit Traversal(const TraverseArguments& arguments) : t_(arguments) {}
 
   void run() {
-    for (std::size_t q = a_.first; q < a_.last; ++q) {
-      find_leaves(int(q));
-      for (int i = 0; i < found_; ++i) leaf_against_leaf(int(q), leaves_[i]);
-      found_ = 0;
+    const int top = t_.tree.levels - 1;
+    for (std::size_t q = t_.first; q < t_.last; ++q) {
+      Pairs& start = blocks_[top];
+      start.a[start.count] = int(q), start.b[start.count++] = 0;
+      if (start.full()) empty_blocks(top);
     }
-    output_.flush();
+    for (int level = top; level >= 0; --level) empty_blocks(level);
+    flush();
   }
 
  private:
-  static constexpr int kRows = rows_of(kMotion);
-  static constexpr int kFound = 512;
+  static constexpr int kRows = kRowsOf[kMotion];
+  static constexpr int kBoxStride = kBoxStrideOf[kMotion];
+  static constexpr int kOwn = kSelf ? 2 : 1, kOther = kSelf ? 2 : 3;  // vertices of a primitive
 
-  static const float* box_of_block(const TreeView& tree, int n) {
-    return tree.level[1] + std::size_t(n / kBlock) * (kRows * kLanes) + n % kBlock;
+  static const float* block_of(const TreeView& tree, int level, int n) {
+    return tree.level[level] + std::size_t(n) * (kRows * kLanes);
+  }
+  static const float* box_of(const TreeView& tree, int level, int n) {
+    return tree.box[level] + std::size_t(n) * kBoxStride;
   }
 
-  // Fills leaves_ with the leaf blocks whose box meets that of query block q.
-  void find_leaves(int q) {
-    float box[kRows];
-    for (int k = 0; k < kRows; ++k) box[k] = box_of_block(a_.query, q)[k * kLanes];
-    struct Node {
-      int level, block;
-    } stack[kMaxLevels * kLanes + kLanes];
-    int depth = 0;
-    stack[depth++] = {a_.tree.levels - 1, 0};
-    while (depth > 0) {
-      const Node node = stack[--depth];
-      const float* block = a_.tree.level[node.level] + std::size_t(node.block) * (kRows * kLanes);
-      int mask = mask_not_negative(overlap<kMotion>(box, 1, block));
-      const int child = node.block * kBlock;
-      if (a_.self) {  // only blocks from q on
-        const int skip = (q >> 3 * (node.level - 1)) - child;
-        if (skip > 0) mask &= 0xff << skip;
+  // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
+  void empty_blocks(int level) {
+    if (level > 1)
+      descend(level);
+    else
+      split(level);
+    blocks_[level].count = 0;
+  }
+
+  // A block of the query, still whole, against the children of a node above.
+  void descend(int level) {
+    const Pairs& from = blocks_[level];
+    Pairs& to = blocks_[level - 1];
+    for (int e = 0; e < from.count; ++e) {
+      const int q = from.a[e], n = from.b[e];
+      int mask = mask_not_negative(overlap<kMotion>(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n)));
+      if (kSelf) {  // nothing before q itself
+        const int skip = (q >> 3 * (level - 2)) - n * kBlock;
+        mask &= 0xff << (skip > 0 ? skip : 0);
       }
-      if (node.level > 1) {
-        for (; mask != 0; mask &= mask - 1) stack[depth++] = {node.level - 1, child + lowest_lane(mask)};
-      } else {
-        for (; mask != 0; mask &= mask - 1) leaves_[found_++] = child + lowest_lane(mask);
-        if (found_ > kFound - kLanes) {
-          for (int i = 0; i < found_; ++i) leaf_against_leaf(q, leaves_[i]);
-          found_ = 0;
-        }
-      }
+      to.add(broadcast(q), compress(lane_numbers() + broadcast(n * kBlock), mask), mask);
+      if (to.full()) empty_blocks(level - 1);
     }
   }
 
-  void leaf_against_leaf(int q, int n) {
-    const float* queries = a_.query.level[0] + std::size_t(q) * (kRows * kLanes);
-    const float* block = a_.tree.level[0] + std::size_t(n) * (kRows * kLanes);
-    const int same = a_.self && q == n;
-    int lanes = same ? 0xff : mask_not_negative(overlap<kMotion>(box_of_block(a_.tree, n), kLanes, queries));
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const int i = lowest_lane(lanes);
-      int mask = mask_not_negative(overlap<kMotion>(queries + i, kLanes, block));
-      if (same) mask &= 0xfe << i;
-      if (mask != 0) mask &= ~sharing(q, i, n);
-      if (mask != 0 && a_.rounded_axes != 0) mask = settle(mask, q, i, n);
-      if (mask != 0) output_.add(a_.query.ids[q * kBlock + i], load(a_.tree.ids + n * kBlock), mask);
+  // Which children of a meet the box of b.
+  void split(int level) {
+    const Pairs& from = blocks_[level];
+    for (int e = 0; e < from.count; ++e) {
+      const int a = from.a[e], b = from.b[e];
+      const int mask =
+          mask_not_negative(overlap<kMotion>(box_of(t_.tree, level, b), 1, block_of(t_.query, level, a)));
+      children_[level].add(compress(lane_numbers() + broadcast(a * kBlock), mask), broadcast(b), mask);
+      if (children_[level].full()) empty_children(level);
+    }
+    empty_children(level);
+  }
+
+  void empty_children(int level) {
+    if (level > 0)
+      pair_children(level);
+    else
+      emit();
+    children_[level].count = 0;
+  }
+
+  // Lanes of block b that meet child c of a block of the query, each unordered pair once.
+  int hits(int level, int c, int b, int& touching_lanes) const {
+    const F8 depth = overlap<kMotion>(block_of(t_.query, level, c / kBlock) + c % kBlock, kLanes,
+                                      block_of(t_.tree, level, b));
+    touching_lanes = mask_zero(depth);
+    const int skip = kSelf && c / kBlock == b ? c % kBlock + (level == 0) : 0;
+    return mask_not_negative(depth) & 0xff << skip;
+  }
+
+  void pair_children(int level) {
+    const Pairs& from = children_[level];
+    Pairs& to = blocks_[level - 1];
+    for (int e = 0; e < from.count; ++e) {
+      int unused;
+      const int mask = hits(level, from.a[e], from.b[e], unused);
+      to.add(broadcast(from.a[e]), compress(lane_numbers() + broadcast(from.b[e] * kBlock), mask), mask);
+      if (to.full()) empty_blocks(level - 1);
     }
   }
 
-  // Lanes of block n that share a vertex with primitive i of query block q.
-  int sharing(int q, int i, int n) const {
-    const int *own = a_.query.vertices + std::size_t(q) * unsigned(a_.query.vertices_each * kBlock) + i,
-              *others = a_.tree.vertices + std::size_t(n) * unsigned(a_.tree.vertices_each * kBlock);
-    int mask = 0;
-    for (int j = 0; j < a_.query.vertices_each; ++j)
-      for (int k = 0; k < a_.tree.vertices_each; ++k)
-        mask |= mask_equal(broadcast(own[j * kBlock]), load(others + k * kBlock));
-    return mask;
+  void emit() {
+    const Pairs& from = children_[0];
+    for (int e = 0; e < from.count; ++e) {
+      const int slot = from.a[e], b = from.b[e];
+      int touching_lanes, mask = hits(0, slot, b, touching_lanes);
+      mask &= ~sharing(slot, b);
+      if ((mask & touching_lanes) != 0 && t_.rounded_axes != 0) mask = settle(mask, slot, b);
+      const I8 others = compress(load(t_.tree.ids + b * kBlock), mask), same = broadcast(t_.query.ids[slot]);
+      if (kSelf)
+        store_interleaved(&out_[count_].a, min(same, others), max(same, others));
+      else
+        store_interleaved(&out_[count_].a, same, others);
+      count_ += std::size_t(count_lanes(mask));
+      if (count_ > kBatchSize - kLanes) flush();
+    }
+  }
+
+  // Lanes of leaf block b that share a vertex with the primitive in `slot` of the query.
+  int sharing(int slot, int b) const {
+    const int* own = t_.query.vertices + std::size_t(slot / kBlock) * (kOwn * kBlock) + slot % kBlock;
+    const int* others = t_.tree.vertices + std::size_t(b) * (kOther * kBlock);
+    I8 shared = broadcast(0);
+    for (int j = 0; j < kOwn; ++j)
+      for (int k = 0; k < kOther; ++k)
+        shared = shared | (broadcast(own[j * kBlock]) == load(others + k * kBlock));
+    return mask_true(shared);
   }
 
   // Takes out the lanes that touch in float but not in double.
-  int settle(int mask, int q, int i, int n) const {
-    const float* query = a_.query.level[0] + std::size_t(q) * (kRows * kLanes) + i;
-    const float* block = a_.tree.level[0] + std::size_t(n) * (kRows * kLanes);
-    int open = touching<kMotion>(mask, a_.rounded_axes, query, block);
+  int settle(int mask, int slot, int b) const {
+    int open = touching<kMotion>(mask, t_.rounded_axes, block_of(t_.query, 0, slot / kBlock) + slot % kBlock,
+                                 block_of(t_.tree, 0, b));
     for (; open != 0; open &= open - 1) {
       const int lane = lowest_lane(open);
-      if (!a_.touches(a_.touches_context, a_.query.ids[q * kBlock + i], a_.tree.ids[n * kBlock + lane]))
+      if (!t_.touches(t_.touches_context, t_.query.ids[slot], t_.tree.ids[b * kBlock + lane]))
         mask &= ~(1 << lane);
     }
     return mask;
   }
 
-  const TraverseArguments& a_;
-  Output output_;
-  int leaves_[kFound];
-  int found_ = 0;
+  void flush() {
+    if (count_ > 0) t_.consume(t_.consume_context, out_, count_);
+    count_ = 0;
+  }
+
+  const TraverseArguments& t_;
+  Pairs blocks_[kMaxLevels], children_[2];
+  std::size_t count_ = 0;
+  IdPair out_[kBatchSize];
 };
 
 template <bool kMotion>
 void fit_leaf(const FitArguments& a, std::size_t n) {
+  constexpr std::size_t kStride = kBoxStrideOf[kMotion];
   const int* members = a.members + n * unsigned(a.members_each * kBlock);
-  float* out = a.tree.level[0] + n * unsigned(rows_of(kMotion) * kLanes);
+  float* out = a.tree.level[0] + n * unsigned(kRowsOf[kMotion] * kLanes);
   for (int end = 0; end < (kMotion ? 2 : 1); ++end) {
+    const float* supports = a.supports + end * kLanes;
     F8 row[8];
     for (int lane = 0; lane < kLanes; ++lane) {
-      row[lane] = load(a.supports + std::size_t(members[lane]) * kSupportStride + end * kLanes);
+      row[lane] = load(supports + std::size_t(members[lane]) * kStride);
       for (int k = 1; k < a.members_each; ++k)
-        row[lane] =
-            max(row[lane],
-                load(a.supports + std::size_t(members[k * kBlock + lane]) * kSupportStride + end * kLanes));
+        row[lane] = max(load(supports + std::size_t(members[k * kBlock + lane]) * kStride), row[lane]);
     }
     transpose(row);
-    for (int k = 0; k < 6; ++k) store(out + (end * 6 + k) * kLanes, row[k]);
+    for (int k = 0; k < 6; ++k) store(out + (end * 6 + k) * kLanes, row[k < 3 ? k : k + 1]);
   }
 }
 
@@ -184,10 +225,12 @@ void fit_leaves(const FitArguments& a, std::size_t first, std::size_t last) {
 }
 
 void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, std::size_t last) {
-  const int rows = rows_of(motion);
+  const int rows = kRowsOf[motion], stride = kBoxStrideOf[motion];
   const std::size_t size = std::size_t(rows * kLanes), below = std::size_t(tree.blocks[level - 1]);
   const float nowhere = kNowhere;
-  for (std::size_t n = first; n < last; ++n)
+  for (std::size_t n = first; n < last; ++n) {
+    F8 lanes[16];
+    for (int k = 0; k < 16; ++k) lanes[k] = broadcast(&nowhere);
     for (int k = 0; k < rows; ++k) {
       F8 row[8];
       for (std::size_t i = 0; i < kBlock; ++i) {
@@ -198,14 +241,21 @@ void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, 
       transpose(row);
       for (int i = 1; i < kLanes; ++i) row[0] = max(row[0], row[i]);
       store(tree.level[level] + n * size + k * kLanes, row[0]);
+      lanes[k] = row[0];
     }
+    for (int half = 0; half < stride / 8; ++half) {
+      transpose(lanes + 8 * half);
+      for (std::size_t i = 0; i < kBlock && n * kBlock + i < below; ++i)
+        store(tree.box[level - 1] + (n * kBlock + i) * unsigned(stride) + 8 * half, lanes[8 * half + int(i)]);
+    }
+  }
 }
 
 void traverse(const TraverseArguments& arguments) {
-  if (arguments.motion)
-    Traversal<true>(arguments).run();
+  if (arguments.self)
+    arguments.motion ? Traversal<true, true>(arguments).run() : Traversal<false, true>(arguments).run();
   else
-    Traversal<false>(arguments).run();
+    arguments.motion ? Traversal<true, false>(arguments).run() : Traversal<false, false>(arguments).run();
 }
 
 }  // namespace ONSET_KERNEL

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kGrain = 2048;
 constexpr int kSamples = 512;
+constexpr std::size_t kAhead = 16;  // vertices are read in an order that the processor cannot foresee
 
 // Writes one end of a record, returns the axes on which the map rounded.
 int write_end(const FloatMap& map, const std::array<double, 3>& lo, const std::array<double, 3>& hi,
@@ -17,37 +18,65 @@ int write_end(const FloatMap& map, const std::array<double, 3>& lo, const std::a
   int rounded = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const float below = map(lo[i], i), above = map(hi[i], i);
-    out[i] = -below, out[3 + i] = above;
+    out[i] = -below, out[4 + i] = above;
     rounded |= int(!(map.inverts(below, lo[i], i) && map.inverts(above, hi[i], i))) << i;
   }
-  out[6] = out[7] = 0;
+  out[3] = out[7] = 0;
   return rounded;
 }
 
-int write_record(const FloatMap& map, BoxTest test, const MotionBox& box, float* out) {
-  const int rounded =
-      write_end(map, box.lo_t0, box.hi_t0, out) | write_end(map, box.lo_t1, box.hi_t1, out + kBlock);
-  if (test == BoxTest::swept)
-    for (int k = 0; k < 6; ++k) out[k] = std::max(out[k], out[kBlock + k]);
-  return rounded;
+int write_record(const FloatMap& map, const MotionBox& box, float* out) {
+  return write_end(map, box.lo_t0, box.hi_t0, out) | write_end(map, box.lo_t1, box.hi_t1, out + kBlock);
 }
 
-Supports make_supports(const BroadPhaseInput& input, const FloatMap& map, Primitive kind) {
+// A vertex that is not widened, both ends at once: x y z 0 x y z 0.
+int write_point(const FloatMap& map, const double* x, float* out) {
+  float y[8];
+  int rounded[8];
+  for (std::size_t k = 0; k < 8; ++k) {
+    y[k] = map(x[k], k % 4);
+    rounded[k] = int(!map.inverts(y[k], x[k], k % 4));
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    out[k] = -y[k], out[4 + k] = y[k];
+    out[8 + k] = -y[4 + k], out[12 + k] = y[4 + k];
+  }
+  return (rounded[0] | rounded[4]) | (rounded[1] | rounded[5]) << 1 | (rounded[2] | rounded[6]) << 2;
+}
+
+}  // namespace
+
+Supports make_supports(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, const int* ids,
+                       std::size_t count) {
+  const bool swept = input.test == BoxTest::swept;
+  const bool points =
+      kind == Primitive::vertex && input.inflation == 0 && input.mesh.thickness.empty() && input.horizon == 1;
+  const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
   Supports s;
-  s.count = primitive_count(input.mesh, kind);
-  s.records = AlignedArray<float>((s.count + 1) * kSupportStride);
-  std::fill_n(s.records.data() + s.count * kSupportStride, kSupportStride, kNowhere);
+  s.count = count;
+  s.records = AlignedArray<float>((s.count + 1) * stride);
+  std::fill_n(s.records.data() + s.count * stride, stride, kNowhere);
   std::atomic<int> rounded{0};
   parallel_ranges(s.count, kGrain, [&](std::size_t first, std::size_t last) {
     int mine = 0;
-    for (std::size_t i = first; i < last; ++i)
-      mine |= write_record(map, input.test, motion_box(input, kind, int(i)),
-                           s.records.data() + i * kSupportStride);
+    float record[2 * kBlock];
+    for (std::size_t i = first; i < last; ++i) {
+      if (points && i + kAhead < last) __builtin_prefetch(input.motion.t0(ids[i + kAhead]));
+      if (points)
+        mine |= write_point(map, input.motion.t0(ids[i]), record);
+      else
+        mine |= write_record(map, motion_box(input, kind, ids[i]), record);
+      float* out = s.records.data() + i * stride;
+      for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
+      if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);
+    }
     rounded.fetch_or(mine);
   });
   s.rounded_axes = rounded;
   return s;
 }
+
+namespace {
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -72,15 +101,14 @@ FloatMap make_float_map(const Motion& motion) {
     spread = std::max(spread, median(sample));
   }
   const double size = spread > 0 ? spread : furthest;
-  if (size > 0) map.scale = std::ldexp(1.0, std::min(-std::ilogb(size), 1000));
+  if (size == 0) return map;
+  map.set_scale(std::min(-std::ilogb(size), 1000));
+  // To a coarse multiple: coordinates that came from single precision then mostly stay exact, which spares
+  // the close calls.
+  const double grid = std::ldexp(1.0, std::min(std::ilogb(size) + 3, 1020));
+  for (std::size_t i = 0; i < 3; ++i)
+    if (std::fabs(map.centre[i]) < grid * 0x1p50) map.centre[i] = std::nearbyint(map.centre[i] / grid) * grid;
   return map;
-}
-
-Supports vertex_supports(const BroadPhaseInput& input, const FloatMap& map) {
-  return make_supports(input, map, Primitive::vertex);
-}
-Supports primitive_supports(const BroadPhaseInput& input, const FloatMap& map, Primitive kind) {
-  return make_supports(input, map, kind);
 }
 
 }  // namespace onset
