@@ -18,6 +18,7 @@ namespace {
 struct Tally {
   std::int64_t queries = 0, positives = 0, false_negatives = 0, false_positives = 0, budget = 0;
   double total_us = 0, max_us = 0;
+  double tolerance = 0;  // the largest that any query was answered at
 
   double mean_us() const { return queries ? total_us / double(queries) : 0; }
   void add(const onset::QueryResult& result, bool truth, double us) {
@@ -26,11 +27,13 @@ struct Tally {
     false_negatives += truth && !result.collides();
     false_positives += !truth && result.collides();
     budget += result.outcome == onset::Outcome::budget;
+    tolerance = std::max(tolerance, result.tolerance);
   }
   void add(const Tally& other) {
     queries += other.queries, positives += other.positives, budget += other.budget;
     false_negatives += other.false_negatives, false_positives += other.false_positives;
     total_us += other.total_us, max_us = std::max(max_us, other.max_us);
+    tolerance = std::max(tolerance, other.tolerance);
   }
 };
 
@@ -86,6 +89,7 @@ void add_numbers(Json& json, const Tally& t) {
   json["mean_us"] = t.mean_us();
   json["max_us"] = t.max_us;
   json["budget"] = t.budget;
+  json["tolerance"] = t.tolerance;
 }
 
 Json to_json(const std::vector<FileTally>& files, const Tally& total) {
@@ -125,6 +129,7 @@ void run_queries(const Inputs& inputs) {
   {
     Progress progress("queries");
     for (FileTally& file : files) {
+      file.tally.tolerance = options.tolerance.value_or(0);
       run_file(file, options, outputs.csv(), progress);
       total.add(file.tally);
     }

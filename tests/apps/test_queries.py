@@ -144,6 +144,7 @@ class Queries(AppTest):
     def test_options_arrive(self):
         self.file("vf.csv", rows(vertex_face(1, 0.25), 0))
         self.assertEqual(self.json("queries", "vf.csv")["total"]["positives"], 0)
+        self.assertEqual(self.json("queries", "vf.csv", "--tolerance", "1e-7")["total"]["tolerance"], 1e-7)
         self.assertEqual(self.json("queries", "vf.csv", "--min-separation", "0.3")["total"]["positives"], 1)
 
 
