@@ -45,7 +45,7 @@ void BoxTree::lay_out(bool motion) {
     view_.blocks[view_.levels++] = int(level);
     total += level;
     level = (level + kBlock - 1) / kBlock;
-  } while (view_.levels < 2 || view_.blocks[view_.levels - 1] > 1);
+  } while (view_.levels < 3 || view_.blocks[view_.levels - 1] > 1);
   const std::size_t size = std::size_t(kRowsOf[motion] * kBlock), box = std::size_t(kBoxStrideOf[motion]);
   if (boxes_.size() < total * (size + box)) boxes_ = AlignedArray<float>(total * (size + box));
   float* place = boxes_.data();

@@ -1,18 +1,18 @@
 #include "broadphase/broad_phase.hpp"
 
-#include <stdexcept>
-
 #include "broadphase/brute_force.hpp"
 #include "broadphase/bvh.hpp"
+#include "broadphase/spatial_hash.hpp"
 
 namespace onset {
 
+// automatic is the tree: the hash took 5 to 20 times as long on every scene measured.
 std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input) {
   switch (method) {
     case BroadPhaseMethod::brute:
       return make_brute_force(input);
     case BroadPhaseMethod::hash:
-      throw std::invalid_argument("broad phase `hash` is not available");
+      return make_spatial_hash(input);
     default:
       return make_bvh(input);
   }

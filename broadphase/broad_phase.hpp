@@ -33,7 +33,7 @@ class BroadPhase {
   virtual ~BroadPhase() = default;
   virtual const char* name() const = 0;
   // Units of work that may be traversed concurrently; their number and content do not depend on the thread
-  // count.
+  // count. None where the motion is not finite or out of range.
   virtual std::size_t blocks(PairKind kind) const = 0;
   // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
   virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;

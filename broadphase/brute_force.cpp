@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::size_t kRows = 16;  // first primitives a block
 
-std::vector<MotionBox> all_boxes(const BroadPhaseInput& input, Primitive kind) {
-  std::vector<MotionBox> boxes(primitive_count(input.mesh, kind));
-  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = motion_box(input, kind, int(i));
-  return boxes;
-}
-
 class BruteForce final : public BroadPhase {
  public:
   explicit BruteForce(const BroadPhaseInput& input) : mesh_(input.mesh) { refit(input); }
@@ -26,12 +20,13 @@ class BruteForce final : public BroadPhase {
 
   void refit(const BroadPhaseInput& input) override {
     test_ = input.test;
+    finite_ = input.motion.status == Outcome::free;
     for (Primitive kind : {Primitive::vertex, Primitive::edge, Primitive::face})
-      boxes_[std::size_t(kind)] = all_boxes(input, kind);
+      boxes_[std::size_t(kind)] = motion_boxes(input, kind);
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return boxes(second_primitive(kind)).empty() ? 0
+    return !finite_ || boxes(second_primitive(kind)).empty() ? 0
                                                  : (boxes(first_primitive(kind)).size() + kRows - 1) / kRows;
   }
 
@@ -50,6 +45,7 @@ class BruteForce final : public BroadPhase {
 
   const MeshData& mesh_;
   BoxTest test_ = BoxTest::motion;
+  bool finite_ = true;
   std::array<std::vector<MotionBox>, 3> boxes_;
 };
 

@@ -22,7 +22,7 @@ inline constexpr int kRowsOf[2] = {6, 12};
 inline constexpr int kBoxStrideOf[2] = {8, 16};
 
 // An implicit tree: lane i of block n of level l > 0 is the union of block 8 n + i of level l - 1. There are
-// at least two levels, and the last one has one block.
+// at least three levels, and the last one has one block.
 struct TreeView {
   float* level[kMaxLevels];
   float* box[kMaxLevels];  // per block: the union of its boxes, kBoxStrideOf floats, the supports first

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
 #include "broadphase/interval.hpp"
 
 namespace onset {
@@ -64,6 +65,14 @@ MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id) {
     box.lo_t1[i] = widen_down(end.lo, r), box.hi_t1[i] = widen_up(end.hi, r);
   }
   return box;
+}
+
+std::vector<MotionBox> motion_boxes(const BroadPhaseInput& input, Primitive kind) {
+  std::vector<MotionBox> boxes(primitive_count(input.mesh, kind));
+  parallel_ranges(boxes.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) boxes[i] = motion_box(input, kind, int(i));
+  });
+  return boxes;
 }
 
 bool boxes_pass(BoxTest test, const MotionBox& a, const MotionBox& b) {

@@ -1,0 +1,126 @@
+// Every broad phase gives the candidates of brute force, each once.
+#include <stdexcept>
+
+#include "tests/broadphase/candidates.hpp"
+#include "tests/broadphase/soups.hpp"
+#include "tests/catch.hpp"
+
+using namespace onset;
+using namespace onset::tests;
+
+namespace {
+
+constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge};
+
+// Returns the number of candidates.
+std::size_t expect_agreement(const std::string& what, BroadPhaseInput input) {
+  const auto brute = make_broad_phase(BroadPhaseMethod::brute, input);
+  std::size_t total = 0;
+  for (const Method& method : methods()) {
+    input.kernel = method.kernel;
+    const auto phase = make_broad_phase(method.method, input);
+    for (PairKind kind : kKinds) {
+      const IdPairs expected = candidates(*brute, kind), found = candidates(*phase, kind);
+      total += expected.size();
+      INFO(what << ", " << method.name << ", kind " << int(kind) << ", test " << int(input.test));
+      CHECK(found.size() == expected.size());
+      CHECK((found == expected));
+    }
+  }
+  return total;
+}
+
+std::size_t expect_agreement_of_both_tests(const std::string& what, BroadPhaseInput input) {
+  std::size_t total = 0;
+  for (BoxTest test : {BoxTest::swept, BoxTest::motion}) {
+    input.test = test;
+    total += expect_agreement(what, input);
+  }
+  return total;
+}
+
+double size_of(const Motion& motion) {
+  double largest = 0;
+  for (int v = 0; v < motion.num_vertices; ++v)
+    for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(motion.t0(v)[a]));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("every method agrees with brute force on hard soups", "[property]") {
+  for (const Soup& soup : hard_soups()) {
+    const Motion motion = soup.motion();
+    REQUIRE(motion.status == Outcome::free);
+    expect_agreement_of_both_tests(soup.name, {soup.mesh, motion});
+  }
+}
+
+TEST_CASE("every method agrees with brute force when widened by an inflation", "[property]") {
+  for (const Soup& soup : hard_soups()) {
+    const Motion motion = soup.motion();
+    for (double relative : {1e-9, 0.01, 0.3}) {
+      BroadPhaseInput input{soup.mesh, motion};
+      input.inflation = size_of(motion) * relative;
+      expect_agreement_of_both_tests(soup.name + ", inflated", input);
+    }
+  }
+}
+
+TEST_CASE("every method agrees with brute force on vertices of different thickness", "[property]") {
+  scenes::Random random(3);
+  for (Soup& soup : hard_soups()) {
+    const Motion motion = soup.motion();
+    const double size = size_of(motion);
+    for (int v = 0; v < soup.mesh.num_vertices; ++v)
+      soup.mesh.thickness.push_back(scenes::coin(random) ? 0 : size * scenes::uniform(random, 0, 0.1));
+    expect_agreement_of_both_tests(soup.name + ", thick", {soup.mesh, motion});
+    BroadPhaseInput both{soup.mesh, motion};
+    both.inflation = size * 0.01, both.horizon = 0.3;
+    expect_agreement_of_both_tests(soup.name + ", thick, inflated, horizon", both);
+  }
+}
+
+TEST_CASE("every method agrees with brute force up to a horizon", "[property]") {
+  for (const Soup& soup : hard_soups()) {
+    const Motion motion = soup.motion();
+    for (double horizon : {0.0, 1e-12, 0.25, 1 - 0x1p-53}) {
+      BroadPhaseInput input{soup.mesh, motion};
+      input.horizon = horizon;
+      expect_agreement_of_both_tests(soup.name + ", horizon", input);
+    }
+  }
+}
+
+TEST_CASE("every method agrees with brute force on a few thousand primitives", "[property]") {
+  scenes::Random random(11);
+  const Soup sparse = scattered("sparse", 2000, 0.04, 0.04, random);
+  const Soup dense = scattered("dense", 700, 0.3, 0.3, random);
+  for (const Soup* soup : {&sparse, &dense}) {
+    const Motion motion = soup->motion();
+    CHECK(expect_agreement_of_both_tests(soup->name, {soup->mesh, motion}) > 5000);
+  }
+}
+
+TEST_CASE("every method agrees with brute force for every small number of primitives", "[property]") {
+  scenes::Random random(5);
+  for (int faces = 0; faces < 30; ++faces) {
+    const Soup soup = scattered("a few", faces, 0.5, 0.5, random);
+    const Motion motion = soup.motion();
+    expect_agreement_of_both_tests(soup.name, {soup.mesh, motion});
+  }
+}
+
+TEST_CASE("no method finds anything where a position is not finite", "[unit]") {
+  scenes::Random random(5);
+  Soup soup = scattered("not finite", 20, 1, 1, random);
+  for (double bad : {double(NAN), double(INFINITY), 0x1p1022}) {
+    soup.x_t1[31] = bad;
+    const Motion motion = soup.motion();
+    REQUIRE(motion.status != Outcome::free);
+    for (BroadPhaseMethod method : {BroadPhaseMethod::brute, BroadPhaseMethod::bvh, BroadPhaseMethod::hash}) {
+      const auto phase = make_broad_phase(method, {soup.mesh, motion});
+      for (PairKind kind : kKinds) CHECK(phase->blocks(kind) == 0);
+    }
+  }
+}

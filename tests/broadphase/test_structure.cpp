@@ -1,0 +1,133 @@
+// Blocks, refits, kernels and threads: none of them changes what is found.
+#include <tbb/task_arena.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "tests/broadphase/candidates.hpp"
+#include "tests/broadphase/soups.hpp"
+#include "tests/catch.hpp"
+
+using namespace onset;
+using namespace onset::tests;
+
+namespace {
+
+constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge};
+
+Soup middle_soup(std::uint64_t seed) {
+  scenes::Random random(seed);
+  return scattered("middle", 500, 0.1, 0.1, random);
+}
+
+}  // namespace
+
+TEST_CASE("blocks traversed one by one give what one call gives, in the same order", "[unit]") {
+  const Soup soup = middle_soup(1);
+  const Motion motion = soup.motion();
+  for (const Method& m : methods()) {
+    BroadPhaseInput input{soup.mesh, motion};
+    input.kernel = m.kernel;
+    const auto phase = make_broad_phase(m.method, input);
+    for (PairKind kind : kKinds) {
+      INFO(m.name);
+      const std::size_t blocks = phase->blocks(kind);
+      REQUIRE(blocks > 3);
+      IdPairs pieces;
+      for (std::size_t b = 0; b < blocks; ++b) {
+        const IdPairs piece = emitted(*phase, kind, b, b + 1);
+        pieces.insert(pieces.end(), piece.begin(), piece.end());
+      }
+      CHECK((sorted(pieces) == candidates(*phase, kind)));
+    }
+  }
+}
+
+TEST_CASE("both kernels emit the same pairs in the same order", "[simd]") {
+  if (!has_avx2()) return;
+  for (const Soup& soup : hard_soups()) {
+    const Motion motion = soup.motion();
+    for (BoxTest test : {BoxTest::swept, BoxTest::motion}) {
+      BroadPhaseInput scalar{soup.mesh, motion}, avx2{soup.mesh, motion};
+      scalar.test = avx2.test = test;
+      scalar.kernel = Kernel::scalar, avx2.kernel = Kernel::avx2;
+      const auto a = make_broad_phase(BroadPhaseMethod::bvh, scalar),
+                 b = make_broad_phase(BroadPhaseMethod::bvh, avx2);
+      for (PairKind kind : kKinds) {
+        INFO(soup.name);
+        REQUIRE(a->blocks(kind) == b->blocks(kind));
+        CHECK((emitted(*a, kind, 0, a->blocks(kind)) == emitted(*b, kind, 0, b->blocks(kind))));
+      }
+    }
+  }
+}
+
+TEST_CASE("a refit finds what a new broad phase finds", "[property]") {
+  const Soup soup = middle_soup(2);
+  scenes::Random random(23);
+  for (const Method& m : methods()) {
+    const Motion first = soup.motion();
+    BroadPhaseInput input{soup.mesh, first};
+    input.kernel = m.kernel;
+    const auto reused = make_broad_phase(m.method, input);
+    for (int round = 0; round < 6; ++round) {
+      Soup next = soup;
+      for (double& x : next.x_t1) x += scenes::uniform(random, -0.3, 0.3);
+      const Motion motion = next.motion();
+      BroadPhaseInput changed{soup.mesh, motion};
+      changed.kernel = m.kernel;
+      changed.test = round % 2 == 0 ? BoxTest::swept : BoxTest::motion;  // motion boxes need more memory
+      changed.horizon = round < 3 ? 1 : 0.25;
+      changed.inflation = round == 4 ? 0.02 : 0;
+      reused->refit(changed);
+      const auto fresh = make_broad_phase(m.method, changed);
+      for (PairKind kind : kKinds) {
+        INFO(m.name << ", round " << round);
+        CHECK((candidates(*reused, kind) == candidates(*fresh, kind)));
+      }
+    }
+  }
+}
+
+TEST_CASE("the number of threads changes neither blocks nor the order of pairs", "[determinism]") {
+  scenes::Random random(31);
+  const Soup soup = scattered("many", 4000, 0.05, 0.05, random);
+  const Motion motion = soup.motion();
+  for (const Method& m : methods()) {
+    BroadPhaseInput input{soup.mesh, motion};
+    input.kernel = m.kernel;
+    IdPairs reference[2];
+    for (int threads : {1, 2, 4}) {
+      tbb::task_arena arena(threads);
+      arena.execute([&] {
+        const auto phase = make_broad_phase(m.method, input);
+        for (PairKind kind : kKinds) {
+          const IdPairs pairs = emitted(*phase, kind, 0, phase->blocks(kind));
+          IdPairs& expected = reference[int(kind)];
+          if (threads == 1) expected = pairs;
+          CHECK((pairs == expected));
+        }
+      });
+    }
+  }
+}
+
+TEST_CASE("a kernel is chosen by request, by environment or by what the machine has", "[unit]") {
+  const char* old = std::getenv("ONSET_KERNEL");
+  const std::string saved = old ? old : "";
+  unsetenv("ONSET_KERNEL");
+  CHECK(resolve_kernel(Kernel::scalar) == Kernel::scalar);
+  CHECK(resolve_kernel(Kernel::automatic) == (has_avx2() ? Kernel::avx2 : Kernel::scalar));
+  setenv("ONSET_KERNEL", "scalar", 1);
+  CHECK(resolve_kernel(Kernel::automatic) == Kernel::scalar);
+  if (has_avx2()) CHECK(resolve_kernel(Kernel::avx2) == Kernel::avx2);
+  if (!has_avx2()) CHECK_THROWS_AS(resolve_kernel(Kernel::avx2), std::invalid_argument);
+  setenv("ONSET_KERNEL", "sse9", 1);
+  CHECK_THROWS_WITH(resolve_kernel(Kernel::automatic), Catch::Contains("sse9"));
+  CHECK(resolve_kernel(Kernel::scalar) == Kernel::scalar);
+  CHECK(std::string(kernel_name(Kernel::avx2)) == "avx2");
+  if (old)
+    setenv("ONSET_KERNEL", saved.c_str(), 1);
+  else
+    unsetenv("ONSET_KERNEL");
+}
