@@ -20,4 +20,15 @@ struct PairSink {
 
 inline constexpr std::size_t kBatchSize = 1024;  // pairs a batch holds at most
 
+// Anything that streams pairs.
+class PairSource {
+ public:
+  virtual ~PairSource() = default;
+  // Units of work that may be traversed concurrently; their number and content do not depend on the thread
+  // count. None where a motion is not finite or out of range.
+  virtual std::size_t blocks(PairKind kind) const = 0;
+  // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
+  virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
+};
+
 }  // namespace onset

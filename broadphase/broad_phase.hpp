@@ -28,15 +28,9 @@ struct BroadPhaseInput {
 };
 
 // Pairs that share a vertex are never emitted; every other pair that passes the test is emitted exactly once.
-class BroadPhase {
+class BroadPhase : public PairSource {
  public:
-  virtual ~BroadPhase() = default;
   virtual const char* name() const = 0;
-  // Units of work that may be traversed concurrently; their number and content do not depend on the thread
-  // count. None where the motion is not finite or out of range.
-  virtual std::size_t blocks(PairKind kind) const = 0;
-  // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
-  virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
   // New boxes in the memory and the order already there: another motion, horizon, inflation or test over the
   // same mesh (the same MeshData object). Afterwards as if made from `input`, up to the order of pairs.
   virtual void refit(const BroadPhaseInput& input) = 0;

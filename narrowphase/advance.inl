@@ -234,6 +234,7 @@ inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResul
   r.t = at(s.t) < 1 ? at(s.t) : 1;
   r.distance = at(s.dist);
   r.delta = at(s.delta);
+  r.separation = at(s.d);
   r.unit = at(s.unit);
   r.checks = static_cast<long long>(at(s.checks));
   r.verdict = verdict;
@@ -264,7 +265,12 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
   look(s, s.t, maximum_norm, w, dist);
   const V e7 = V::all(7.25 * kU) * s.rho;
   // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 4u) for the Euclidean norm.
-  const V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
+  V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
+  // A share of the gap is kept (paper, section 7.2: d = p d_i), and room for the caller's rounding of positions.
+  const V share = V::all(pairs.keep) * apart + V::all(pairs.rounding) / s.unit;
+  const V kept = select(apart > zero<V>(), min(V::all(0.5 * (1 + pairs.keep)) * apart, share), zero<V>());
+  s.d = s.d + kept;
+  apart = apart - kept;
   s.delta = max(min(s.delta, V::all(0.25) * apart), V::all(16) * e7);
   const Check<V, K> check = advance(s, w, dist, maximum_norm);
   // Never a zero from a start that is apart: where the full demand of d + delta/2 certifies nothing, d alone does.
@@ -281,12 +287,13 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
 // Four pairs where they stopped.
 template <int K>
 inline void restore(const KernelResume* resume, const int (&positions)[4], State<D4, K>& s) {
-  double t[4], delta[4], slow[4], checks[4];
+  double t[4], separation[4], delta[4], slow[4], checks[4];
   for (int l = 0; l < 4; ++l) {
     const KernelResume& r = resume[positions[l]];
-    t[l] = r.t, delta[l] = r.delta, slow[l] = -r.patience, checks[l] = static_cast<double>(r.checks);
+    t[l] = r.t, separation[l] = r.separation, delta[l] = r.delta, slow[l] = -r.patience, checks[l] = static_cast<double>(r.checks);
   }
   s.t = D4::load(t);
+  s.d = D4::load(separation);
   s.delta = D4::load(delta);
   s.slow = D4::load(slow);
   s.checks = D4::load(checks);

@@ -17,7 +17,7 @@ inline void float_corners(const KernelPairs& pairs, const int* rows, F8 (&c)[2][
       for (auto& corner : end)
         for (D4& x : corner) x = x * scale;
     double of_pair[4];
-    for (int l = 0; l < 4; ++l) of_pair[l] = pairs.separation[rows[4 * half + l]];
+    for (int l = 0; l < 4; ++l) of_pair[l] = pairs.separation[rows[4 * half + l]] + pairs.rounding;
     separation[half] = D4::load(of_pair) * scale;
   }
   for (int end = 0; end < 2; ++end)
@@ -50,6 +50,14 @@ inline void direction_at(const V (&c)[K][3], V (&w)[3]) {
   best_direction(c, nearest_on_boundary(c), e1, e2, w);
 }
 
+// An upper bound of the share of the initial gap that the advancement adds to d.
+template <class V, int K>
+inline V kept_at_most(const V (&c)[K][3], const KernelPairs& pairs) {
+  // The point found errs by less than 10u rho < 2^-18.
+  const V gap = sqrt(nearest_on_boundary(c).f2) * V::all(1 + 0x1p-20f) + V::all(0x1p-18f);
+  return gap * V::all(static_cast<float>(pairs.keep) * (1 + 0x1p-20f));
+}
+
 template <int K>
 inline int cull_eight(const KernelPairs& pairs, const int* rows) {
   using V = F8;
@@ -65,6 +73,7 @@ inline int cull_eight(const KernelPairs& pairs, const int* rows) {
   direction_at(c[0], w0);
   direction_at(c[1], w1);
   const V up = V::all(1 + 0x1p-19f);
+  if (pairs.keep > 0) d = d + kept_at_most(c[0], pairs);
   const V m0 = (error + d * norm_factor(w0, pairs.maximum_norm)) * up;
   const V m2 = (error + d * norm_factor(w1, pairs.maximum_norm)) * up;
   return bits(separates(c[0], c[1], w0, w1, m0, m2));

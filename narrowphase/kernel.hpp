@@ -11,6 +11,9 @@ struct KernelPairs {
   const double* separation;  // d of each pair, model length
   int count;
   double tolerance;   // model length
+  // Beyond d a pair must also keep this share of its certified initial gap, in [0, 1), plus `rounding` (model length), but
+  // never more than half of what the share leaves.
+  double keep, rounding;
   double horizon;     // pairs certified apart beyond this time may be dropped as free
   bool maximum_norm;  // d is measured in the L-infinity norm
   long long max_checks;
@@ -29,6 +32,7 @@ struct KernelResult {
   double t;         // certified apart on [0, t]
   double distance;  // scaled upper bound of the distance at t
   double delta;     // scaled tolerance used: contact means distance - d <= delta
+  double separation;  // scaled d, with what `keep` and `rounding` add
   double unit;
   long long checks;
   Verdict verdict;
@@ -36,7 +40,7 @@ struct KernelResult {
 
 // Where advancement goes on with a pair that stalled.
 struct KernelResume {
-  double t, delta;
+  double t, separation, delta;
   long long checks;
   double patience;  // crawling checks allowed beyond the usual ones
 };

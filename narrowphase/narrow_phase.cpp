@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/dispatch.hpp"
 #include "narrowphase/inclusion.hpp"
@@ -10,6 +11,10 @@
 
 namespace onset {
 namespace {
+
+// Advancement converges so fast that stopping at a sixteenth of the tolerance costs about one check, and most
+// pairs that pass within the tolerance without touching are then told apart.
+constexpr double kSharpness = 0.0625;
 
 const KernelTable& kernels_for(Kernel requested) {
 #ifdef ONSET_HAVE_AVX2
@@ -41,6 +46,10 @@ void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
   contacts += o.contacts, budget += o.budget, checks += o.checks;
   most_checks = std::max(most_checks, o.most_checks);
   achieved_tolerance = std::max(achieved_tolerance, o.achieved_tolerance);
+  const auto order = [](const NarrowPhaseStats& s) {
+    return std::tuple(s.least_kept, s.closest.a, s.closest.b);
+  };
+  if (order(o) < order(*this)) least_kept = o.least_kept, closest = o.closest;
 }
 
 NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
@@ -64,32 +73,48 @@ void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
   }
 }
 
+KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
+                                 NarrowPhaseScratch& scratch) const {
+  look_up(kind, pairs, count, scratch);
+  // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
+  // tolerance to use.
+  const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
+  return {in_.motion.x.data(),
+          reinterpret_cast<const int(*)[4]>(scratch.vertices.data()),
+          scratch.separation.data(),
+          int(count),
+          inclusion_only ? in_.tolerance : kSharpness * in_.tolerance,
+          in_.keep,
+          in_.rounding,
+          horizon,
+          in_.options.norm == Norm::maximum,
+          inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
+}
+
+int NarrowPhase::cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const {
+  if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) {
+    for (int i = 0; i < input.count; ++i) scratch.survivors[std::size_t(i)] = i;
+    return input.count;
+  }
+  const auto cull = kind == PairKind::vertex_face ? kernels_->cull_vertex_face : kernels_->cull_edge_edge;
+  return cull(input, scratch.survivors.data());
+}
+
+void NarrowPhase::cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
+                       std::vector<IdPair>& out) const {
+  const int survivors = cull(kind, prepare(kind, pairs, count, 1, scratch), scratch);
+  for (int i = 0; i < survivors; ++i) out.push_back(pairs[scratch.survivors[std::size_t(i)]]);
+}
+
 void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
                           NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const {
   if (count == 0) return;
-  look_up(kind, pairs, count, scratch);
-  const auto* vertices = reinterpret_cast<const int(*)[4]>(scratch.vertices.data());
-  const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
-  // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
-  // tolerance to use.
-  const KernelPairs input{in_.motion.x.data(),
-                          vertices,
-                          scratch.separation.data(),
-                          int(count),
-                          in_.tolerance,
-                          horizon,
-                          in_.options.norm == Norm::maximum,
-                          inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
-  const bool vf = kind == PairKind::vertex_face;
-  int survivors = int(count);
-  if (inclusion_only) {
-    for (int i = 0; i < survivors; ++i) scratch.survivors[std::size_t(i)] = i;
-  } else {
-    survivors = (vf ? kernels_->cull_vertex_face : kernels_->cull_edge_edge)(input, scratch.survivors.data());
-  }
+  const KernelPairs input = prepare(kind, pairs, count, horizon, scratch);
+  const int survivors = cull(kind, input, scratch);
   scratch.results.resize(std::size_t(survivors));
-  (vf ? kernels_->advance_vertex_face : kernels_->advance_edge_edge)(
-      input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
+  const auto advance =
+      kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
+  advance(input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
   scratch.stats.candidates += std::int64_t(count);
   scratch.stats.after_culls += survivors;
   for (int i = 0; i < survivors; ++i) {
@@ -105,7 +130,7 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
 // degenerate pairs converge slowly but steadily; what neither finishes is left for the inclusion root finder.
 KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelResult r) const {
   constexpr double kPatience = 200;
-  const double wanted = (c.input.separation[c.row] / r.unit + 0.5 * r.delta) * (1 + 0x1p-49);
+  const double wanted = (r.separation + 0.5 * r.delta) * (1 + 0x1p-49);
   bool patient = false;
   for (int rounds = 0; rounds < 64 && r.verdict == Verdict::stalled; ++rounds) {
     const double t = certify_interval(corners, r.t, wanted, c.input.maximum_norm);
@@ -117,7 +142,7 @@ KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelR
     }
     if (t == r.t && patient) return r;
     patient = t == r.t;
-    const KernelResume resume{t, r.delta, r.checks, patient ? kPatience : 0};
+    const KernelResume resume{t, r.separation, r.delta, r.checks, patient ? kPatience : 0};
     const auto advance =
         c.kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
     advance(c.input, &c.row, 1, &resume, &r);
@@ -130,7 +155,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
   KernelResult found = checked;
   PairResult r{c.pair, 0, 0, 0, Outcome::contact};
   const Corners corners = make_corners(c.kind, in_.motion, c.input.vertices[c.row]);
-  const double d = c.input.separation[c.row] / found.unit;
+  const double d = found.separation;
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
   if (!inclusion_only && found.verdict == Verdict::stalled) found = push_on(c, corners, found);
   stats.checks += found.checks - checked.checks;
@@ -153,6 +178,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
     if (searched.t > 0 || !unclear)
       found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
   }
+  if (in_.rounding > 0) note_kept(c, found, stats);
   if (found.verdict == Verdict::initial) return finish_initial(c, corners, found, stats, out);
   if (found.verdict == Verdict::budget) r.outcome = Outcome::budget;
   r.toi = r.step_limit = found.t;
@@ -161,11 +187,22 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
   report(r, stats, out);
 }
 
+// kept = min(keep gap + rounding, (1 + keep)/2 gap): less than this bound means the second, from which the
+// gap follows.
+void NarrowPhase::note_kept(const Case& c, const KernelResult& found, NarrowPhaseStats& stats) const {
+  const double kept = found.separation * found.unit - c.input.separation[c.row];
+  if (kept >= in_.rounding * (1 + in_.keep) / (1 - in_.keep) * (1 - 0x1p-30)) return;
+  NarrowPhaseStats here;
+  here.least_kept = kept > 0 ? (kept - in_.rounding) * (1 + in_.keep) / (2 * kept) : -1;
+  here.closest = c.pair;
+  stats.add(here);
+}
+
 // Touching or closer than d at the start: where the motion parts the pair the step goes on, to the next
 // contact if there is one.
 void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
                                  NarrowPhaseStats& stats, std::vector<PairResult>& out) const {
-  const double d = c.input.separation[c.row] / found.unit;
+  const double d = found.separation;
   const Parting parting = find_parting({corners, c.input, c.row, c.kind, *kernels_, d});
   PairResult r{c.pair, 0, parting.t, std::max(0.0, (found.distance - d) * found.unit),
                Outcome::initial_contact};
@@ -174,7 +211,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
     const double floor = 116 * 0x1p-53 * corners.rho;  // 16 E7, as at a start that is apart
     KernelResult later = found;
     later.t = parting.t;
-    later.delta = std::max(std::min(in_.tolerance / found.unit, 0.25 * parting.excess), floor);
+    later.delta = std::max(std::min(kSharpness * in_.tolerance / found.unit, 0.25 * parting.excess), floor);
     later.verdict = Verdict::stalled;
     std::vector<PairResult> next;
     finish(c, later, stats, next);

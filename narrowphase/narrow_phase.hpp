@@ -17,6 +17,9 @@ struct NarrowPhaseInput {
   const Motion& motion;
   double tolerance;  // model length, > 0
   const Options& options;
+  double keep =
+      0;  // share of each pair's initial gap beyond its separation that it must keep as well, in [0, 1)
+  double rounding = 0;  // model length: kept too, up to half of what that share leaves
 };
 
 // A pair that is not certified free.
@@ -33,6 +36,10 @@ struct NarrowPhaseStats {
   std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, budget = 0, checks = 0,
                most_checks = 0;
   double achieved_tolerance = 0;
+  // The least share of its gap, net of `rounding`, that a reported pair is sure to keep, and the pair; < 0:
+  // not even its separation. 1 where all keep what was asked for.
+  double least_kept = 1;
+  IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
 };
 
@@ -51,16 +58,24 @@ class NarrowPhase {
   // `horizon` may be left out; the rest have the same results for any horizon.
   void process(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
                NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const;
+  // Appends the pairs of the batch that the culls cannot certify as free.
+  void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
+            std::vector<IdPair>& out) const;
   const char* kernel_name() const { return kernels_->name; }
 
  private:
-  void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   struct Case {  // one pair of a batch
     PairKind kind;
     IdPair pair;
     const KernelPairs& input;
     int row;
   };
+
+  KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
+                      NarrowPhaseScratch& scratch) const;
+  int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
+  void note_kept(const Case& c, const KernelResult& found, NarrowPhaseStats& stats) const;
+  void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
   void finish(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
               std::vector<PairResult>& out) const;

@@ -16,14 +16,14 @@ std::tuple<int, int, int> identity(const FoundPair& f) {
 
 class Pass {
  public:
-  Pass(const BroadPhase& broad, const NarrowPhase& narrow, Keep keep, double horizon)
-      : broad_(broad), narrow_(narrow), keep_(keep), horizon_(horizon) {}
+  Pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon)
+      : pairs_(pairs), narrow_(narrow), keep_(keep), horizon_(horizon) {}
 
   void run(PairKind kind, NarrowPhaseStats& stats) {
-    parallel_ranges(broad_.blocks(kind), kBlocksATask, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(pairs_.blocks(kind), kBlocksATask, [&](std::size_t first, std::size_t last) {
       if (ended()) return;
       Task task{*this, kind, {}, {}};
-      broad_.traverse(kind, first, last, {&task, &Task::consume});
+      pairs_.traverse(kind, first, last, {&task, &Task::consume});
       merge(kind, task, stats);
     });
   }
@@ -79,7 +79,7 @@ class Pass {
     }
   }
 
-  const BroadPhase& broad_;
+  const PairSource& pairs_;
   const NarrowPhase& narrow_;
   const Keep keep_;
   std::atomic<double> horizon_;
@@ -96,13 +96,41 @@ bool limits_before(const FoundPair& x, const FoundPair& y) {
                                                     : before(x, y);
 }
 
-PassResult run_pass(const BroadPhase& broad, const NarrowPhase& narrow, Keep keep, double horizon) {
+PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon) {
   PassResult result;
-  Pass pass(broad, narrow, keep, horizon);
+  Pass pass(pairs, narrow, keep, horizon);
   pass.run(PairKind::vertex_face, result.vertex_face);
   pass.run(PairKind::edge_edge, result.edge_edge);
   result.found = pass.take();
   return result;
+}
+
+void copy_counts(const PassResult& pass, Stats& stats) {
+  const auto both = [&](std::int64_t NarrowPhaseStats::*field) {
+    return PairCounts{pass.vertex_face.*field, pass.edge_edge.*field};
+  };
+  stats.candidates = both(&NarrowPhaseStats::candidates);
+  stats.after_culls = both(&NarrowPhaseStats::after_culls);
+  stats.inclusion = both(&NarrowPhaseStats::inclusion);
+  stats.contacts = both(&NarrowPhaseStats::contacts);
+  stats.budget = both(&NarrowPhaseStats::budget);
+  stats.checks = both(&NarrowPhaseStats::checks).total();
+  stats.max_checks_of_a_pair = std::max(pass.vertex_face.most_checks, pass.edge_edge.most_checks);
+  stats.achieved_tolerance = std::max(pass.vertex_face.achieved_tolerance, pass.edge_edge.achieved_tolerance);
+}
+
+Pair to_pair(const Mesh& mesh, const FoundPair& f) {
+  return {f.kind, f.result.pair.a, f.result.pair.b, pair_vertices(mesh.data(), f.kind, f.result.pair)};
+}
+
+void limit_step(const Mesh& mesh, const PassResult& pass, StepResult& r) {
+  r.step = 1;
+  if (pass.found.empty() || pass.found[0].result.step_limit >= 1) return;
+  const PairResult& limiting = pass.found[0].result;
+  r.step = limiting.step_limit;
+  // A pair that parts at the start and is met again later limits the step as a contact.
+  r.outcome = limiting.outcome == Outcome::initial_separating ? Outcome::contact : limiting.outcome;
+  r.limiting = to_pair(mesh, pass.found[0]);
 }
 
 }  // namespace onset

@@ -8,6 +8,7 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "onset/mesh.hpp"
 
 namespace onset {
 
@@ -32,6 +33,11 @@ struct PassResult {
 };
 
 // `horizon`: pairs certified apart beyond it may be dropped.
-PassResult run_pass(const BroadPhase& broad, const NarrowPhase& narrow, Keep keep, double horizon);
+PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon);
+
+void copy_counts(const PassResult& pass, Stats& stats);
+Pair to_pair(const Mesh& mesh, const FoundPair& found);
+// The step, outcome and limiting pair that follow from a pass that kept the limiting pair.
+void limit_step(const Mesh& mesh, const PassResult& pass, StepResult& result);
 
 }  // namespace onset

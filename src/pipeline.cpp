@@ -1,63 +1,15 @@
 #include "onset/pipeline.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 
-#include "base/dispatch.hpp"
 #include "base/parallel.hpp"
 #include "src/checked_options.hpp"
 #include "src/pass.hpp"
+#include "src/scene.hpp"
 
 namespace onset {
 namespace {
-
-class Clock {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// What every call sets up: the motion, its accuracy and the broad phase.
-struct Scene {
-  Motion motion;
-  std::unique_ptr<BroadPhase> broad;
-  Clock clock;
-
-  // Leaves `broad` empty where the motion is not usable.
-  Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, BoxTest test,
-        Stats& stats) {
-    const MeshData& data = mesh.data();
-    motion = make_motion(data.num_vertices, x_t0, x_t1);
-    stats.threads = current_threads();
-    stats.kernel = kernel_name(resolve_kernel(options.kernel));
-    if (motion.status != Outcome::free) return;
-    describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options,
-                      stats);
-    broad = make_broad_phase(options.broad_phase,
-                             {data, motion, 0.5 * options.min_separation, 1.0, test, options.kernel});
-    stats.broad_phase = broad->name();
-    stats.seconds_broad = clock.seconds();
-  }
-};
-
-void copy_counts(const PassResult& pass, Stats& stats) {
-  const auto both = [&](std::int64_t NarrowPhaseStats::*field) {
-    return PairCounts{pass.vertex_face.*field, pass.edge_edge.*field};
-  };
-  stats.candidates = both(&NarrowPhaseStats::candidates);
-  stats.after_culls = both(&NarrowPhaseStats::after_culls);
-  stats.inclusion = both(&NarrowPhaseStats::inclusion);
-  stats.contacts = both(&NarrowPhaseStats::contacts);
-  stats.budget = both(&NarrowPhaseStats::budget);
-  stats.checks = both(&NarrowPhaseStats::checks).total();
-  stats.max_checks_of_a_pair = std::max(pass.vertex_face.most_checks, pass.edge_edge.most_checks);
-  stats.achieved_tolerance = std::max(pass.vertex_face.achieved_tolerance, pass.edge_edge.achieved_tolerance);
-}
 
 PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Stats& stats) {
   const double begun = scene.clock.seconds();
@@ -69,10 +21,6 @@ PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep
   return pass;
 }
 
-Pair to_pair(const Mesh& mesh, const FoundPair& f) {
-  return {f.kind, f.result.pair.a, f.result.pair.b, pair_vertices(mesh.data(), f.kind, f.result.pair)};
-}
-
 StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                          const Options& options, Keep keep) {
   StepResult r;
@@ -81,13 +29,7 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
   r.vertex = scene.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
   const PassResult pass = run(mesh, scene, options, keep, r.stats);
-  r.step = 1;
-  if (pass.found.empty() || pass.found[0].result.step_limit >= 1) return r;
-  const PairResult& limiting = pass.found[0].result;
-  r.step = limiting.step_limit;
-  // A pair that parts at the start and is met again later limits the step as a contact.
-  r.outcome = limiting.outcome == Outcome::initial_separating ? Outcome::contact : limiting.outcome;
-  r.limiting = to_pair(mesh, pass.found[0]);
+  limit_step(mesh, pass, r);
   return r;
 }
 

@@ -1,6 +1,7 @@
 // Everything a simulator includes.
 #pragma once
 
+#include <onset/line_search.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/pipeline.hpp>

@@ -1,0 +1,54 @@
+// One broad phase for a whole line search, and steps that leave the next one room to move.
+#pragma once
+
+#include <memory>
+#include <onset/export.hpp>
+#include <onset/mesh.hpp>
+#include <onset/options.hpp>
+#include <onset/result.hpp>
+
+namespace onset {
+
+struct LineSearchStep {
+  StepResult result;  // result.step: the largest safe step
+  // The share of its gap that every pair reported is sure to keep, once positions are rounded to stored
+  // doubles: the one asked for unless keep_reduced. A gap of less than 2 rounding / (1 - keep) cannot keep it
+  // all: the share is cut, `closest` names the pair, and with a gap below 2 rounding not even the separation
+  // is sure (assured = false): rounding alone can then close it; raise min_separation.
+  double keep = 0;
+  bool keep_reduced = false, assured = true;
+  Pair closest;
+  double rounding =
+      0;  // model length: bound on how much storing x_t0 + step dx in doubles changes a distance
+};
+
+// Holds the candidate pairs of x_t0 -> x_t0 + dx (paper, Algorithm 4). Const calls are safe from several
+// threads. Memory: 8 bytes a pair that single precision could not certify as free of contact for the whole
+// direction.
+class ONSET_API LineSearch {
+ public:
+  // dx: #V x 3 (or flat), model length: x_t1 = x_t0 + dx is formed here. Throws as
+  // compute_collision_free_stepsize.
+  //
+  // keep in [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its
+  // separation), so that steps along one direction approach a contact as a sequence t_i < t_i+1 and never
+  // reach it, and from every result the next step is > 0 (paper, section 7.2: d = p d_i, with p = keep).
+  LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const Options& options = {},
+             double keep = 0.2);
+  ~LineSearch();
+  LineSearch(LineSearch&&) noexcept;
+  LineSearch& operator=(LineSearch&&) noexcept;
+
+  // The largest step in [0, upper] that is free of contact, in exact motion and once rounded to stored
+  // doubles.
+  LineSearchStep largest_step(double upper = 1) const;
+
+  // Pairs held.
+  PairCounts candidates() const;
+
+ private:
+  struct Held;
+  std::unique_ptr<Held> held_;
+};
+
+}  // namespace onset

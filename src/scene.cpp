@@ -1,0 +1,23 @@
+#include "src/scene.hpp"
+
+#include "base/dispatch.hpp"
+#include "base/parallel.hpp"
+#include "src/checked_options.hpp"
+
+namespace onset {
+
+Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
+             BoxTest test, Stats& stats) {
+  const MeshData& data = mesh.data();
+  motion = make_motion(data.num_vertices, x_t0, x_t1);
+  stats.threads = current_threads();
+  stats.kernel = kernel_name(resolve_kernel(options.kernel));
+  if (motion.status != Outcome::free) return;
+  describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options, stats);
+  broad = make_broad_phase(options.broad_phase,
+                           {data, motion, 0.5 * options.min_separation, 1.0, test, options.kernel});
+  stats.broad_phase = broad->name();
+  stats.seconds_broad = clock.seconds();
+}
+
+}  // namespace onset

@@ -1,0 +1,22 @@
+// What every call sets up: the motion, its accuracy and the broad phase.
+#pragma once
+
+#include <memory>
+
+#include "broadphase/broad_phase.hpp"
+#include "onset/mesh.hpp"
+#include "src/clock.hpp"
+
+namespace onset {
+
+struct Scene {
+  Motion motion;
+  std::unique_ptr<BroadPhase> broad;  // empty where the motion is not usable (motion.status)
+  Clock clock;
+
+  // Fills the statistics that are known before any pair is.
+  Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, BoxTest test,
+        Stats& stats);
+};
+
+}  // namespace onset
