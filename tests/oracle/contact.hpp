@@ -31,6 +31,16 @@ class FirstContact {
     boundary_ = boundary(r_);
   }
 
+  // The first contact in (0, 1] of a pair that is not coplanar for all t: its contacts are isolated.
+  // Elsewhere none.
+  std::optional<Bracket> time_after_start() const {
+    const P f = dot(r_.q, n_);
+    if (f.is_zero()) return std::nullopt;
+    for (Root<Q>& root : roots_in_unit_interval(f))
+      if (root.hi > 0 && touches(root)) return to_doubles(root);
+    return std::nullopt;
+  }
+
   // None: the two do not touch in [0, 1].
   std::optional<Bracket> time() const {
     const P f = dot(r_.q, n_);

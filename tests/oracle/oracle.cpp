@@ -29,15 +29,23 @@ static std::array<Vector<Rational>, 4> exact(const std::array<Point, 4>& points,
   return x;
 }
 
-Truth exact_ccd(const scenes::Query& query) {
+// In units that make all coordinates integers: no denominators to reduce. Contact does not depend on the
+// unit.
+static FirstContact<Rational> first_contact(const scenes::Query& query) {
   int last = std::numeric_limits<int>::max();
   for (const auto* points : {&query.t0, &query.t1})
     for (const Point& p : *points)
       for (double x : p) last = std::min(last, last_bit(x));
-  if (last == std::numeric_limits<int>::max()) return {true, 0, 0};  // all zero
-  const Rational scale = power_of_two(-last);                        // integers: no denominators to reduce
-  const auto t = FirstContact<Rational>(query.kind, exact(query.t0, scale), exact(query.t1, scale)).time();
-  return t ? Truth{true, t->lo, t->hi} : Truth{};
+  const bool all_zero = last == std::numeric_limits<int>::max();
+  const Rational scale = power_of_two(all_zero ? 0 : -last);
+  return {query.kind, exact(query.t0, scale), exact(query.t1, scale)};
+}
+
+static Truth truth(const std::optional<Bracket>& t) { return t ? Truth{true, t->lo, t->hi} : Truth{}; }
+
+Truth exact_ccd(const scenes::Query& query) { return truth(first_contact(query).time()); }
+Truth exact_ccd_after_start(const scenes::Query& query) {
+  return truth(first_contact(query).time_after_start());
 }
 Truth exact_ccd(const VertexFaceQuery& query) {
   return exact_ccd(scenes::Query{PairKind::vertex_face, query.t0, query.t1});

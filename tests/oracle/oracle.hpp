@@ -19,6 +19,10 @@ Truth exact_ccd(const scenes::Query& query);
 Truth exact_ccd(const VertexFaceQuery& query);
 Truth exact_ccd(const EdgeEdgeQuery& query);
 
+// The first contact at t > 0, where contacts are isolated; collides is false for pairs that stay coplanar for
+// all t.
+Truth exact_ccd_after_start(const scenes::Query& query);
+
 // The sign of (distance at time t) - d, exactly. t and d are any finite doubles, d >= 0.
 int compare_distance(const scenes::Query& query, double t, double d, Norm norm = Norm::euclidean);
 inline bool closer_than(const scenes::Query& query, double t, double d, Norm norm = Norm::euclidean) {

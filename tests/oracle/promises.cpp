@@ -1,0 +1,72 @@
+#include "tests/oracle/promises.hpp"
+
+#include <cstdio>
+
+#include "tests/oracle/walk.hpp"
+
+namespace onset::oracle {
+
+std::string broken_promise(const scenes::Query& query, const Options& options, const QueryResult& result,
+                           const Known& truth) {
+  if (!(result.toi >= 0 && result.toi <= 1)) return "toi outside [0, 1]";
+  if (truth.contact && !result.collides()) return "missed a contact";
+  if (truth.contact && !(result.toi <= truth.latest)) return "toi later than the contact";
+  if (result.outcome == Outcome::free && result.toi != 1) return "free, but toi is not 1";
+  if (result.toi > 0) return {};
+  const double d = options.min_separation, ulps = 0x1p-40 * (extent(query) + d);
+  const bool apart = compare_distance(query, 0, d + ulps, options.norm) > 0;
+  return apart ? "a step of zero from a start that is apart" : std::string();
+}
+
+static std::string wrong_outcome(const scenes::Query& query, const Options& options,
+                                 const QueryResult& result) {
+  const Outcome outcome = result.outcome;
+  const bool initial = outcome == Outcome::initial_contact || outcome == Outcome::initial_separating;
+  if (outcome == Outcome::non_finite || outcome == Outcome::out_of_range)
+    return "an outcome for bad positions";
+  if (initial && result.toi != 0) return "starts in contact, but toi is not 0";
+  if (outcome == Outcome::contact && result.toi == 0) return "a contact at toi 0 that is not called initial";
+  const bool within = compare_distance(query, 0, options.min_separation, options.norm) <= 0;
+  if (within && !initial) return "starts within the separation, not said";
+  if (outcome == Outcome::initial_separating) {
+    const double rounding = 0x1p-45 * extent(query), start = distance(query, 0, options.norm).lo - rounding;
+    for (double t : {0x1p-20, 0.125, 0.25, 0.5, 0.75, 1.0})
+      if (start > 0 && compare_distance(query, t, start, options.norm) < 0)
+        return "called separating, but comes closer";
+  }
+  return {};
+}
+
+std::string wrong_report(const scenes::Query& query, const Options& options, const QueryResult& result) {
+  const std::string wrong = wrong_outcome(query, options, result);
+  if (!wrong.empty()) return wrong;
+  if (result.checks > options.max_checks) return "more checks than allowed";
+  if (!result.collides()) return {};
+
+  const double d = options.min_separation, size = extent(query);
+  if (!(result.tolerance >= 0)) return "tolerance is not a number >= 0";
+  if (compare_distance(query, result.toi, (d + result.tolerance) * (1 + 0x1p-50) + 0x1p-1074, options.norm) >
+      0)
+    return "farther apart at toi than the reported tolerance";
+  const double asked = options.tolerance ? *options.tolerance : options.relative_tolerance * size;
+  const double rounding = 0x1p-42 * (size + d) + 0x1p-1070;
+  if (result.outcome != Outcome::budget && result.tolerance > asked + rounding)
+    return "reported beyond the tolerance";
+  return {};
+}
+
+std::string to_text(const Options& options, const QueryResult& result) {
+  char line[300];
+  std::snprintf(line, sizeof line,
+                "tolerance %s%g, max_checks %lld, separation %a %s, method %d, kernel %d -> %s, toi %a (%g), "
+                "tolerance %g, "
+                "%lld checks",
+                options.tolerance ? "" : "relative ", options.tolerance.value_or(options.relative_tolerance),
+                static_cast<long long>(options.max_checks), options.min_separation,
+                options.norm == Norm::maximum ? "maximum" : "euclidean", int(options.narrow_phase),
+                int(options.kernel), onset::to_string(result.outcome), result.toi, result.toi,
+                result.tolerance, static_cast<long long>(result.checks));
+  return line;
+}
+
+}  // namespace onset::oracle
