@@ -1,0 +1,64 @@
+// Queries as the kernels take them: positions of many pairs of one kind, four vertices each.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "narrowphase/kernel.hpp"
+#include "tests/scenes/query.hpp"
+
+namespace onset::tests {
+
+class KernelBatch {
+ public:
+  explicit KernelBatch(PairKind kind) : kind_(kind) {}
+
+  void add(const scenes::Query& query, double separation) {
+    const int first = int(ids_.size()) * 4;
+    for (int i = 0; i < 4; ++i)
+      for (const Point& p : {query.t0[i], query.t1[i]}) {
+        x_.insert(x_.end(), p.begin(), p.end());
+        x_.push_back(0);
+      }
+    ids_.push_back({first, first + 1, first + 2, first + 3});
+    separation_.push_back(separation);
+  }
+
+  PairKind kind() const { return kind_; }
+  int count() const { return int(ids_.size()); }
+  double separation(int row) const { return separation_[std::size_t(row)]; }
+
+  // Of all pairs; views this object.
+  KernelPairs pairs(double tolerance, bool maximum_norm = false, long long max_checks = 10000) const {
+    KernelPairs p{};
+    p.x = x_.data();
+    p.vertices = reinterpret_cast<const int(*)[4]>(ids_.data());
+    p.separation = separation_.data();
+    p.count = count();
+    p.tolerance = tolerance;
+    p.horizon = 1;
+    p.maximum_norm = maximum_norm;
+    p.max_checks = max_checks;
+    return p;
+  }
+
+ private:
+  PairKind kind_;
+  std::vector<double> x_;
+  std::vector<std::array<int, 4>> ids_;
+  std::vector<double> separation_;
+};
+
+// The kernels of one kind of pair.
+struct KernelsOfKind {
+  decltype(KernelTable::cull_vertex_face) cull;
+  decltype(KernelTable::advance_vertex_face) advance;
+  decltype(KernelTable::look_vertex_face) look;
+};
+inline KernelsOfKind of_kind(const KernelTable& table, PairKind kind) {
+  if (kind == PairKind::vertex_face)
+    return {table.cull_vertex_face, table.advance_vertex_face, table.look_vertex_face};
+  return {table.cull_edge_edge, table.advance_edge_edge, table.look_edge_edge};
+}
+
+}  // namespace onset::tests
