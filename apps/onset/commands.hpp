@@ -13,5 +13,6 @@ void add_active_set(CLI::App& app, Run& run);
 void add_candidates(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
 void add_demo(CLI::App& app, Run& run);
+void add_bench(CLI::App& app, Run& run);
 
 }  // namespace app

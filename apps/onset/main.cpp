@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   app::add_candidates(app, run);
   app::add_queries(app, run);
   app::add_demo(app, run);
+  app::add_bench(app, run);
   describe(app);
   try {
     app.parse(argc, argv);
