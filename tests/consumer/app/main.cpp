@@ -44,6 +44,13 @@ void whole_steps(const Scene& s, const onset::Mesh& mesh) {
   expect(pairs.vertex_face.size() + pairs.edge_edge.size() >= active.size(), "contacts are candidates");
 }
 
+void line_search(const Scene& s, const onset::Mesh& mesh) {
+  const onset::LineSearch search(mesh, s.x0, s.x1 - s.x0);
+  const onset::LineSearchStep step = search.largest_step();
+  expect(step.result.step < 0.5 && step.result.step > 0.25, "the line search keeps a share of the gap");
+  std::printf("line search %a\n", step.result.step);
+}
+
 void not_a_number(const Scene& s, const onset::Mesh& mesh) {
   Eigen::MatrixXd bad = s.x1;
   bad(4, 1) = std::numeric_limits<double>::quiet_NaN();
@@ -74,6 +81,7 @@ int main() {
   const onset::Mesh mesh(scene.x0, scene.F);
   expect(edges_of_a_tetrahedron() == 6, "edges, called from a second translation unit");
   whole_steps(scene, mesh);
+  line_search(scene, mesh);
   not_a_number(scene, mesh);
   single_queries();
   return failures;
