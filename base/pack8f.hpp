@@ -47,8 +47,9 @@ inline void store(float* p, F8 x) { _mm256_storeu_ps(p, x.v); }
 inline F8 operator+(F8 a, F8 b) { return {_mm256_add_ps(a.v, b.v)}; }
 inline F8 min(F8 a, F8 b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline F8 max(F8 a, F8 b) { return {_mm256_max_ps(a.v, b.v)}; }
-inline int mask_not_negative(F8 a) {
-  return _mm256_movemask_ps(_mm256_cmp_ps(a.v, _mm256_setzero_ps(), _CMP_GE_OQ));
+inline int mask_not_negative(F8 a) { return ~_mm256_movemask_ps(a.v) & 0xff; }  // by the sign bit
+inline int mask_neither_negative(F8 a, I8 b) {  // neither sign bit set, -0.0 counts as negative
+  return ~_mm256_movemask_ps(_mm256_or_ps(a.v, _mm256_castsi256_ps(b.v))) & 0xff;
 }
 inline int mask_zero(F8 a) { return _mm256_movemask_ps(_mm256_cmp_ps(a.v, _mm256_setzero_ps(), _CMP_EQ_OQ)); }
 
@@ -122,7 +123,8 @@ inline void store(float* p, F8 x) {
 inline F8 operator+(F8 a, F8 b) { ONSET_EACH(F8, a.v[i] + b.v[i]); }
 inline F8 min(F8 a, F8 b) { ONSET_EACH(F8, a.v[i] < b.v[i] ? a.v[i] : b.v[i]); }
 inline F8 max(F8 a, F8 b) { ONSET_EACH(F8, a.v[i] > b.v[i] ? a.v[i] : b.v[i]); }
-inline int mask_not_negative(F8 a) { ONSET_MASK(a.v[i] >= 0); }
+inline int mask_not_negative(F8 a) { ONSET_MASK(!__builtin_signbit(a.v[i])); }
+inline int mask_neither_negative(F8 a, I8 b) { ONSET_MASK(!__builtin_signbit(a.v[i]) && b.v[i] >= 0); }
 inline int mask_zero(F8 a) { ONSET_MASK(a.v[i] == 0); }
 
 inline I8 load(const int* p) { ONSET_EACH(I8, p[i]); }

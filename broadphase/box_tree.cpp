@@ -23,17 +23,17 @@ bool own_supports(const BroadPhaseInput& input, Primitive kind) {
 // Unused lanes refer to the record after the last.
 BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const VertexOrder& order)
     : kind_(kind), count_(primitive_count(mesh, kind)) {
-  const std::vector<Ranked> primitives = order_of_primitives(mesh, kind, order);
   const std::size_t each = std::size_t(vertices_each(kind_)), slots = (count_ + kBlock - 1) / kBlock * kBlock;
   ids_ = AlignedArray<int>(slots), vertices_ = AlignedArray<int>(slots * each);
+  order_primitives(mesh, kind, order, ids_.data());
+  std::fill(ids_.data() + count_, ids_.data() + slots, int(count_));
   parallel_ranges(slots, kGrain, [&](std::size_t first, std::size_t last) {
-    const Ranked none{mesh.num_vertices, mesh.num_vertices, mesh.num_vertices, int(count_)};
     for (std::size_t slot = first; slot < last; ++slot) {
-      const Ranked& p = slot < count_ ? primitives[slot] : none;
-      const int ranks[3] = {p.lowest, p.highest, p.middle};
-      ids_[slot] = p.id;
+      int* out = vertices_.data() + slot / kBlock * each * kBlock + slot % kBlock;
+      const auto vertices =
+          slot < count_ ? primitive_vertices(mesh, kind_, ids_[slot]) : std::array<int, 3>{};
       for (std::size_t k = 0; k < each; ++k)
-        vertices_[(slot / kBlock * each + k) * kBlock + slot % kBlock] = ranks[k];
+        out[k * kBlock] = slot < count_ ? order.rank[std::size_t(vertices[k])] : mesh.num_vertices;
     }
   });
 }

@@ -26,8 +26,9 @@ class BruteForce final : public BroadPhase {
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return !finite_ || boxes(second_primitive(kind)).empty() ? 0
-                                                 : (boxes(first_primitive(kind)).size() + kRows - 1) / kRows;
+    return !finite_ || boxes(second_primitive(kind)).empty()
+               ? 0
+               : (boxes(first_primitive(kind)).size() + kRows - 1) / kRows;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {

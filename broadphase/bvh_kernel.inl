@@ -76,12 +76,20 @@ class Traversal {
   static constexpr int kBoxStride = kBoxStrideOf[kMotion];
   static constexpr int kOwn = kSelf ? 2 : 1, kOther = kSelf ? 2 : 3;  // vertices of a primitive
 
-  static const float* block_of(const TreeView& tree, int level, int n) {
+  static const float* block_of(const TreeView& tree, int level, unsigned n) {
     return tree.level[level] + std::size_t(n) * (kRows * kLanes);
   }
-  static const float* box_of(const TreeView& tree, int level, int n) {
+  static const float* box_of(const TreeView& tree, int level, unsigned n) {
     return tree.box[level] + std::size_t(n) * kBoxStride;
   }
+
+  struct Leaves {
+    const float* boxes;
+    const int *vertices, *ids;
+    explicit Leaves(const TreeView& tree) : boxes(tree.level[0]), vertices(tree.vertices), ids(tree.ids) {}
+    const float* block(unsigned n) const { return boxes + std::size_t(n) * (kRows * kLanes); }
+    const float* box(unsigned slot) const { return block(slot / kBlock) + slot % kBlock; }
+  };
 
   // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
   void empty_blocks(int level) {
@@ -129,56 +137,66 @@ class Traversal {
     children_[level].count = 0;
   }
 
-  // Lanes of block b that meet child c of a block of the query, each unordered pair once.
-  int hits(int level, int c, int b, int& touching_lanes) const {
-    const F8 depth = overlap<kMotion>(block_of(t_.query, level, c / kBlock) + c % kBlock, kLanes,
-                                      block_of(t_.tree, level, b));
-    touching_lanes = mask_zero(depth);
-    const int skip = kSelf && c / kBlock == b ? c % kBlock + (level == 0) : 0;
-    return mask_not_negative(depth) & 0xff << skip;
+  // Lanes of block b that may pair with child c of a block of the query: each unordered pair once, nothing
+  // with itself.
+  static int unpaired(unsigned c, unsigned b, unsigned itself) {
+    const unsigned skip = c % kBlock + itself;
+    return kSelf && c / kBlock == b ? 0xff << skip : 0xff;
   }
 
   void pair_children(int level) {
     const Pairs& from = children_[level];
     Pairs& to = blocks_[level - 1];
     for (int e = 0; e < from.count; ++e) {
-      int unused;
-      const int mask = hits(level, from.a[e], from.b[e], unused);
-      to.add(broadcast(from.a[e]), compress(lane_numbers() + broadcast(from.b[e] * kBlock), mask), mask);
+      const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
+      const float* box = block_of(t_.query, level, c / kBlock) + c % kBlock;
+      const int mask =
+          mask_not_negative(overlap<kMotion>(box, kLanes, block_of(t_.tree, level, b))) & unpaired(c, b, 0);
+      to.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), mask), mask);
       if (to.full()) empty_blocks(level - 1);
     }
   }
 
   void emit() {
+    const Leaves query(t_.query), tree(t_.tree);  // copies: what is written cannot change them
+    const bool rounded = t_.rounded_axes != 0;
     const Pairs& from = children_[0];
-    for (int e = 0; e < from.count; ++e) {
-      const int slot = from.a[e], b = from.b[e];
-      int touching_lanes, mask = hits(0, slot, b, touching_lanes);
-      mask &= ~sharing(slot, b);
-      if ((mask & touching_lanes) != 0 && t_.rounded_axes != 0) mask = settle(mask, slot, b);
-      const I8 others = compress(load(t_.tree.ids + b * kBlock), mask), same = broadcast(t_.query.ids[slot]);
+    const int items = from.count;
+    IdPair* out = out_ + count_;
+    for (int e = 0; e < items; ++e) {
+      const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
+      const float* box = query.box(c);
+      const F8 depth = overlap<kMotion>(box, kLanes, tree.block(b));
+      const I8 shared = sharing(query.vertices + c / kBlock * (kOwn * kBlock) + c % kBlock,
+                                tree.vertices + b * (kOther * kBlock));
+      int mask = mask_neither_negative(depth, shared) & unpaired(c, b, 1);
+      if (rounded && (mask & mask_zero(depth)) != 0) mask = settle(mask, c, b);
+      const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
       if (kSelf)
-        store_interleaved(&out_[count_].a, min(same, others), max(same, others));
+        store_interleaved(&out->a, min(same, others), max(same, others));
       else
-        store_interleaved(&out_[count_].a, same, others);
-      count_ += std::size_t(count_lanes(mask));
-      if (count_ > kBatchSize - kLanes) flush();
+        store_interleaved(&out->a, same, others);
+      out += count_lanes(mask);
+      if (out > out_ + (kBatchSize - kLanes)) {
+        count_ = std::size_t(out - out_);
+        flush();
+        out = out_;
+      }
     }
+    count_ = std::size_t(out - out_);
   }
 
-  // Lanes of leaf block b that share a vertex with the primitive in `slot` of the query.
-  int sharing(int slot, int b) const {
-    const int* own = t_.query.vertices + std::size_t(slot / kBlock) * (kOwn * kBlock) + slot % kBlock;
-    const int* others = t_.tree.vertices + std::size_t(b) * (kOther * kBlock);
-    I8 shared = broadcast(0);
+  // All bits of the lanes that share a vertex; each vertex of `own` is a row of 8 after the one before.
+  static I8 sharing(const int* own, const int* others) {
+    I8 shared = broadcast(own[0]) == load(others);
     for (int j = 0; j < kOwn; ++j)
-      for (int k = 0; k < kOther; ++k)
+      for (int k = j == 0; k < kOther; ++k)
         shared = shared | (broadcast(own[j * kBlock]) == load(others + k * kBlock));
-    return mask_true(shared);
+    return shared;
   }
 
   // Takes out the lanes that touch in float but not in double.
-  int settle(int mask, int slot, int b) const {
+  int settle(int mask, unsigned slot, unsigned b) const {
     int open = touching<kMotion>(mask, t_.rounded_axes, block_of(t_.query, 0, slot / kBlock) + slot % kBlock,
                                  block_of(t_.tree, 0, b));
     for (; open != 0; open &= open - 1) {

@@ -16,7 +16,8 @@ std::uint64_t pack(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 
 }  // namespace
 
-CellGrid::CellGrid(const FloatMap& map, const std::vector<const std::vector<MotionBox>*>& sets, std::size_t limit)
+CellGrid::CellGrid(const FloatMap& map, const std::vector<const std::vector<MotionBox>*>& sets,
+                   std::size_t limit)
     : map_(map) {
   double sum = 0;
   std::size_t count = 0;
@@ -49,7 +50,8 @@ CellGrid::Range CellGrid::range(const MotionBox& box) const {
 }
 
 // Stops counting beyond `limit`.
-std::size_t CellGrid::entries(const std::vector<const std::vector<MotionBox>*>& sets, std::size_t limit) const {
+std::size_t CellGrid::entries(const std::vector<const std::vector<MotionBox>*>& sets,
+                              std::size_t limit) const {
   std::size_t total = 0;
   for (const auto* set : sets)
     for (const MotionBox& b : *set) {
@@ -67,7 +69,8 @@ void CellGrid::append(const std::vector<MotionBox>& boxes, bool second, std::vec
     const Range r = range(boxes[id]);
     for (std::uint32_t z = r.lo[2]; z <= r.hi[2]; ++z)
       for (std::uint32_t y = r.lo[1]; y <= r.hi[1]; ++y)
-        for (std::uint32_t x = r.lo[0]; x <= r.hi[0]; ++x) entries.push_back({pack(x, y, z), int(id), second});
+        for (std::uint32_t x = r.lo[0]; x <= r.hi[0]; ++x)
+          entries.push_back({pack(x, y, z), int(id), second});
   }
 }
 

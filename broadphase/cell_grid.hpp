@@ -9,8 +9,9 @@
 
 namespace onset {
 
-// Cells are counted from the middle of 2^20 an axis, and the outermost take all that lies beyond. The cell of a coordinate is
-// monotone in it, so boxes that overlap share the cell of the lower corner of their intersection: a pair is reported there.
+// Cells are counted from the middle of 2^20 an axis, and the outermost take all that lies beyond. The cell of
+// a coordinate is monotone in it, so boxes that overlap share the cell of the lower corner of their
+// intersection: a pair is reported there.
 class CellGrid {
  public:
   struct Range {

@@ -45,7 +45,8 @@ inline Primitive second_primitive(PairKind kind) {
 double primitive_inflation(const BroadPhaseInput& input, Primitive kind, int id);
 
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id);
-std::vector<MotionBox> motion_boxes(const BroadPhaseInput& input, Primitive kind);  // of all primitives, by id
+std::vector<MotionBox> motion_boxes(const BroadPhaseInput& input,
+                                    Primitive kind);  // of all primitives, by id
 
 // The definition of both tests, which every method reduces to. Swept: closed swept boxes overlap. Motion: no
 // axis separates strictly, on the same side, at both ends.

@@ -17,7 +17,8 @@ constexpr std::size_t kEntriesABlock = 512;  // of traversal, more where one cel
 // The primitives of both sides of a kind of pairs, by cell.
 class Cells {
  public:
-  Cells(const FloatMap& map, const std::vector<MotionBox>& first, const std::vector<MotionBox>& second, bool self) {
+  Cells(const FloatMap& map, const std::vector<MotionBox>& first, const std::vector<MotionBox>& second,
+        bool self) {
     std::vector<const std::vector<MotionBox>*> sets{&first};
     if (!self) sets.push_back(&second);
     const CellGrid grid(map, sets, kEntriesEach * (first.size() + (self ? 0 : second.size())));

@@ -18,7 +18,7 @@ int write_end(const FloatMap& map, const std::array<double, 3>& lo, const std::a
   int rounded = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const float below = map(lo[i], i), above = map(hi[i], i);
-    out[i] = -below, out[4 + i] = above;
+    out[i] = 0 - below, out[4 + i] = above;
     rounded |= int(!(map.inverts(below, lo[i], i) && map.inverts(above, hi[i], i))) << i;
   }
   out[3] = out[7] = 0;
@@ -38,8 +38,8 @@ int write_point(const FloatMap& map, const double* x, float* out) {
     rounded[k] = int(!map.inverts(y[k], x[k], k % 4));
   }
   for (std::size_t k = 0; k < 4; ++k) {
-    out[k] = -y[k], out[4 + k] = y[k];
-    out[8 + k] = -y[4 + k], out[12 + k] = y[4 + k];
+    out[k] = 0 - y[k], out[4 + k] = y[k];
+    out[8 + k] = 0 - y[4 + k], out[12 + k] = y[4 + k];
   }
   return (rounded[0] | rounded[4]) | (rounded[1] | rounded[5]) << 1 | (rounded[2] | rounded[6]) << 2;
 }

@@ -22,7 +22,7 @@ struct FloatMap {
   void set_scale(int exponent) { scale_ = std::ldexp(1.0, exponent), inverse_ = std::ldexp(1.0, -exponent); }
   float operator()(double x, std::size_t axis) const {
     const double y = (x - centre[axis]) * scale_;
-    return static_cast<float>(std::min(std::max(y, -kLargest), kLargest));
+    return static_cast<float>(std::min(std::max(y, -kLargest), kLargest)) + 0.0f;  // no -0
   }
   // True for all coordinates of a set: the map is one to one on it.
   bool inverts(float y, double x, std::size_t axis) const { return double(y) * inverse_ + centre[axis] == x; }

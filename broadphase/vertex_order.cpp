@@ -1,7 +1,7 @@
 #include "broadphase/vertex_order.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "broadphase/space_curve.hpp"
@@ -12,19 +12,29 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-// Stable, by one member of each entry, whose values lie in [0, values).
-void counting_sort(const std::vector<Ranked>& from, std::vector<Ranked>& to, int Ranked::*key,
-                   std::size_t values) {
-  std::vector<int> start(values + 1, 0);
-  for (const Ranked& r : from) ++start[std::size_t(r.*key) + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  for (const Ranked& r : from) to[std::size_t(start[std::size_t(r.*key)]++)] = r;
+constexpr std::ptrdiff_t kLongRun = 16;  // primitives of one lowest rank, as around a hub
+
+struct RankRange {
+  int lowest, highest;
+};
+
+RankRange rank_range(const MeshData& mesh, Primitive kind, const int* rank, int id) {
+  if (kind == Primitive::edge) {
+    const int a = rank[mesh.edges[std::size_t(id)][0]], b = rank[mesh.edges[std::size_t(id)][1]];
+    return {std::min(a, b), std::max(a, b)};
+  }
+  const auto& f = mesh.faces[std::size_t(id)];
+  const int a = rank[f[0]], b = rank[f[1]], c = rank[f[2]];
+  return {std::min(a, std::min(b, c)), std::max(a, std::max(b, c))};
 }
 
-// Of the ranks of a primitive's vertices; unused places repeat the first (primitive_vertices).
-Ranked ranked(int a, int b, int c, int id) {
-  const int lowest = std::min(a, std::min(b, c)), highest = std::max(a, std::max(b, c));
-  return {lowest, highest, std::max(std::min(a, b), std::min(std::max(a, b), c)), id};
+// By highest rank, then by id.
+void sort_run(const MeshData& mesh, Primitive kind, const int* rank, int* first, int* last) {
+  std::vector<std::pair<int, int>> keys;
+  for (const int* id = first; id != last; ++id)
+    keys.emplace_back(rank_range(mesh, kind, rank, *id).highest, *id);
+  std::sort(keys.begin(), keys.end());
+  for (const auto& key : keys) *first++ = key.second;
 }
 
 }  // namespace
@@ -44,25 +54,25 @@ VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map) {
   return result;
 }
 
-std::vector<Ranked> order_of_primitives(const MeshData& mesh, Primitive kind, const VertexOrder& order) {
+void order_primitives(const MeshData& mesh, Primitive kind, const VertexOrder& order, int* ids) {
   const std::size_t count = primitive_count(mesh, kind);
-  std::vector<Ranked> keys(count);
+  if (kind == Primitive::vertex) {
+    std::copy(order.vertex.begin(), order.vertex.end(), ids);
+    return;
+  }
+  const int* rank = order.rank.data();
+  AlignedArray<int> lowest(count);
   parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (kind == Primitive::vertex) {
-        keys[i] = {int(i), int(i), int(i), order.vertex[i]};
-        continue;
-      }
-      const auto v = primitive_vertices(mesh, kind, int(i));
-      keys[i] = ranked(order.rank[std::size_t(v[0])], order.rank[std::size_t(v[1])],
-                       order.rank[std::size_t(v[2])], int(i));
-    }
+    for (std::size_t i = first; i < last; ++i) lowest[i] = rank_range(mesh, kind, rank, int(i)).lowest;
   });
-  if (kind == Primitive::vertex) return keys;
-  std::vector<Ranked> sorted(count);
-  counting_sort(keys, sorted, &Ranked::highest, order.rank.size());
-  counting_sort(sorted, keys, &Ranked::lowest, order.rank.size());
-  return keys;
+  std::vector<int> start(order.rank.size(), 0);
+  for (std::size_t i = 0; i < count; ++i) ++start[std::size_t(lowest[i])];
+  int sum = 0;
+  for (int& n : start) sum += std::exchange(n, sum);
+  for (std::size_t i = 0; i < count; ++i) ids[start[std::size_t(lowest[i])]++] = int(i);
+  for (std::size_t r = 0, first = 0; r < start.size();
+       first = std::size_t(start[r++]))  // start: now where runs end
+    if (start[r] - std::ptrdiff_t(first) > kLongRun) sort_run(mesh, kind, rank, ids + first, ids + start[r]);
 }
 
 }  // namespace onset
