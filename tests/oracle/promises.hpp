@@ -16,10 +16,12 @@ struct Known {
 };
 inline Known known(const Truth& truth) { return {truth.collides, truth.toi_lo}; }
 
-// Empty, or the promise that `result` breaks: no miss, never late, never a zero step from a start that is
-// apart. For finite positions.
+// Empty, or the promise that `result` breaks: no miss, never late. For finite positions.
 std::string broken_promise(const scenes::Query& query, const Options& options, const QueryResult& result,
                            const Known& truth);
+
+// A step of zero although the pair starts apart by more than rounding can hide.
+bool silent_zero(const scenes::Query& query, const Options& options, const QueryResult& result);
 
 // Empty, or what `result` says about itself and is not so: outcome, tolerance, checks.
 std::string wrong_report(const scenes::Query& query, const Options& options, const QueryResult& result);
