@@ -156,11 +156,11 @@ struct Check {
   typename V::Mask contact, stuck;
 };
 template <class V, int K>
-inline Check<V, K> advance(State<V, K>& s, const V (&w)[3], V dist, bool maximum_norm) {
+inline Check<V, K> advance(State<V, K>& s, const V (&w)[3], V dist, bool maximum_norm, bool first) {
   V g0[K], g1[K];
   const V fixed = certify_fixed(s, w, maximum_norm, g0, g1);
-  const V moving = certify_moving(s, w, maximum_norm, g0, g1);
-  const V next = max(fixed, max(moving, certify_normal(s)));
+  V next = max(fixed, certify_normal(s));
+  if (!first) next = max(certify_moving(s, w, maximum_norm, g0, g1), next);
   Check<V, K> r;
   r.contact = dist - s.d <= s.delta;
   const auto crawls = (dist > V::all(0.7) * s.dist) & (next - s.t < V::all(0.125) * (one<V>() - s.t));
@@ -212,22 +212,6 @@ inline void set_up(const KernelPairs& pairs, const int* rows, State<D4, K>& s) {
   set_cubic(s, e1, e2, pairs.maximum_norm);
 }
 
-// One pair's state on its own, field by field.
-template <int K>
-struct Record {
-  double field[kFields<K>];
-};
-template <int K>
-inline void take_lane(const State<D4, K>& s, int lane, Record<K>& r) {
-  const double* from = reinterpret_cast<const double*>(&s);
-  for (int i = 0; i < kFields<K>; ++i) r.field[i] = from[4 * i + lane];
-}
-template <int K>
-inline void put_lane(State<D4, K>& s, int lane, const Record<K>& r) {
-  double* to = reinterpret_cast<double*>(&s);
-  for (int i = 0; i < kFields<K>; ++i) to[4 * i + lane] = r.field[i];
-}
-
 template <int K>
 inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResult& r) {
   const auto at = [&](const D4& v) { return reinterpret_cast<const double*>(&v)[lane]; };
@@ -272,12 +256,15 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
   s.d = s.d + kept;
   apart = apart - kept;
   s.delta = max(min(s.delta, V::all(0.25) * apart), V::all(16) * e7);
-  const Check<V, K> check = advance(s, w, dist, maximum_norm);
+  const Check<V, K> check = advance(s, w, dist, maximum_norm, true);
   // Never a zero from a start that is apart: where the full demand of d + delta/2 certifies nothing, d alone does.
-  V g0[K], g1[K];
-  for (int k = 0; k < K; ++k) g0[k] = dot(w, s.c[0][k]), g1[k] = dot(w, s.c[1][k]);
-  const V thr = V::all(4.25 * kU) * s.rho + s.d * norm_factor(w, maximum_norm) * V::all(1 + 0x1p-49);
-  s.t = max(fixed_certificate(g0, g1, thr, zero<V>()), s.t);
+  const auto held = check.contact | check.stuck;
+  if (bits(held) != 0) {
+    V g0[K], g1[K];
+    for (int k = 0; k < K; ++k) g0[k] = dot(w, s.c[0][k]), g1[k] = dot(w, s.c[1][k]);
+    const V thr = V::all(4.25 * kU) * s.rho + s.d * norm_factor(w, maximum_norm) * V::all(1 + 0x1p-49);
+    s.t = select(held, max(fixed_certificate(g0, g1, thr, zero<V>()), s.t), s.t);
+  }
   judge(s, check, pairs, verdict);
   const int positive = bits(apart > zero<V>());
   for (int l = 0; l < 4; ++l)
@@ -299,49 +286,65 @@ inline void restore(const KernelResume* resume, const int (&positions)[4], State
   s.checks = D4::load(checks);
 }
 
+// Up to four pairs set up and checked once; `waiting` marks those that go on.
+template <int K>
+struct Pending {
+  State<D4, K> state;
+  int owner[4];
+  int waiting = 0;
+};
+template <int K>
+inline void refill(const KernelPairs& pairs, const int* subset, int first, int count, const KernelResume* resume,
+                   Pending<K>& pending, KernelResult* results) {
+  int rows[4], verdict[4] = {-1, -1, -1, -1};
+  for (int l = 0; l < 4; ++l) {
+    pending.owner[l] = first + l < count ? first + l : count - 1;
+    rows[l] = subset[pending.owner[l]];
+  }
+  set_up(pairs, rows, pending.state);
+  if (resume != nullptr) restore(resume, pending.owner, pending.state);
+  else first_check(pairs, pending.state, verdict);
+  for (int l = 0; l < 4 && first + l < count; ++l) {
+    if (verdict[l] < 0) pending.waiting |= 1 << l;
+    else report(pending.state, l, Verdict(verdict[l]), results[first + l]);
+  }
+}
+
+template <int K>
+inline void move_lane(const State<D4, K>& from, int from_lane, State<D4, K>& to, int to_lane) {
+  const double* source = reinterpret_cast<const double*>(&from) + from_lane;
+  double* target = reinterpret_cast<double*>(&to) + to_lane;
+  for (int i = 0; i < kFields<K>; ++i) target[4 * i] = source[4 * i];
+}
+
+// Lanes are independent: a pair's result does not depend on which others share the registers.
 template <int K>
 inline void advance_all(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
                         KernelResult* results) {
-  constexpr int kQueue = 64;
-  Record<K> queue[kQueue + 4];
-  int owner[kQueue + 4];
-  int queued = 0, next = 0;
   State<D4, K> lanes = {};
-  int lane_owner[4] = {-1, -1, -1, -1}, active = 0;
-  while (next < count || queued > 0 || active > 0) {
-    while (next < count && queued < kQueue) {  // first checks, four at a time
-      int rows[4], positions[4], verdict[4] = {-1, -1, -1, -1};
-      for (int l = 0; l < 4; ++l) positions[l] = next + l < count ? next + l : count - 1, rows[l] = subset[positions[l]];
-      State<D4, K> s;
-      set_up(pairs, rows, s);
-      if (resume != nullptr) restore(resume, positions, s);
-      else first_check(pairs, s, verdict);
-      for (int l = 0; l < 4 && next < count; ++l, ++next) {
-        if (verdict[l] < 0) {
-          take_lane(s, l, queue[queued]);
-          owner[queued++] = next;
-        } else {
-          report(s, l, Verdict(verdict[l]), results[next]);
-        }
-      }
+  Pending<K> pending;
+  int owner[4] = {-1, -1, -1, -1}, active = 0, next = 0;
+  while (true) {
+    for (int l = 0; l < 4; ++l) {
+      if (owner[l] >= 0) continue;
+      for (; pending.waiting == 0 && next < count; next += 4) refill(pairs, subset, next, count, resume, pending, results);
+      if (pending.waiting == 0) break;
+      const int from = __builtin_ctz(static_cast<unsigned>(pending.waiting));
+      pending.waiting &= pending.waiting - 1;
+      move_lane(pending.state, from, lanes, l);
+      owner[l] = pending.owner[from];
+      ++active;
     }
-    for (int l = 0; l < 4; ++l)
-      if (lane_owner[l] < 0 && queued > 0) {
-        --queued;
-        put_lane(lanes, l, queue[queued]);
-        lane_owner[l] = owner[queued];
-        ++active;
-      }
-    if (active == 0) continue;
+    if (active == 0) return;
     D4 w[3], dist;
     look(lanes, lanes.t, pairs.maximum_norm, w, dist);
-    const Check<D4, K> check = advance(lanes, w, dist, pairs.maximum_norm);
+    const Check<D4, K> check = advance(lanes, w, dist, pairs.maximum_norm, false);
     int verdict[4];
     judge(lanes, check, pairs, verdict);
     for (int l = 0; l < 4; ++l)
-      if (lane_owner[l] >= 0 && verdict[l] >= 0) {
-        report(lanes, l, Verdict(verdict[l]), results[lane_owner[l]]);
-        lane_owner[l] = -1;
+      if (owner[l] >= 0 && verdict[l] >= 0) {
+        report(lanes, l, Verdict(verdict[l]), results[owner[l]]);
+        owner[l] = -1;
         --active;
       }
   }

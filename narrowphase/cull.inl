@@ -1,29 +1,38 @@
 // Kernel text: the culls, in single precision, eight pairs at a time.
 //
-// Corner differences are formed and scaled in double, so that their largest component is in [1, 2), and rounded to float once:
-// relative error u(1 + 2^-28), u = 2^-24, as for a corner in the double certificates. Hence a dot product errs by 4u |w| rho
-// and a Bernstein coefficient on [0, 1] by 5u; 5.5u covers second order, |w| <= 1 + 4u and underflow (below 2^-149, against
-// u rho >= 2^-24). d is rounded up by 2^-22.
+// Corner differences are formed in double, scaled by one power of two for the scene and rounded to float once: relative error
+// u(1 + 2^-28), u = 2^-24, as for a corner in the double certificates. Hence a dot product errs by 4u |w| rho and a
+// Bernstein coefficient on [0, 1] by 5u, on half of it, with a corner averaged, by 6u; 7u covers second order and |w| <= 1 + 5u.
+// Underflow (2^-149 each) is covered by an absolute 2^-140. d is rounded up by 2^-22.
 
 template <int K>
-inline void float_corners(const KernelPairs& pairs, const int* rows, F8 (&c)[2][K][3], F8& d) {
+struct FloatPairs {
+  F8 c[2][K][3];  // corners at both ends
+  F8 d;           // separation
+  F8 error;       // bound of a coefficient's error
+};
+
+template <int K>
+inline void float_corners(const KernelPairs& pairs, const int* rows, FloatPairs<K>& out) {
   D4 lanes[2][2][K][3], separation[2];
+  const D4 scale = D4::all(pairs.scale);
   for (int half = 0; half < 2; ++half) {
     Points<D4> p;
     gather(pairs, rows + 4 * half, p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
-    const D4 scale = inverse_power_of_two(largest_component(lanes[half]));
-    for (auto& end : lanes[half])
-      for (auto& corner : end)
-        for (D4& x : corner) x = x * scale;
     double of_pair[4];
     for (int l = 0; l < 4; ++l) of_pair[l] = pairs.separation[rows[4 * half + l]] + pairs.rounding;
     separation[half] = D4::load(of_pair) * scale;
   }
+  F8 R[3] = {zero<F8>(), zero<F8>(), zero<F8>()};
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < K; ++k)
-      for (int a = 0; a < 3; ++a) c[end][k][a] = to_float(lanes[0][end][k][a], lanes[1][end][k][a]);
-  d = to_float(separation[0], separation[1]) * F8::all(1 + 0x1p-22f);
+      for (int a = 0; a < 3; ++a) {
+        out.c[end][k][a] = to_float(lanes[0][end][k][a] * scale, lanes[1][end][k][a] * scale);
+        R[a] = max(abs(out.c[end][k][a]), R[a]);
+      }
+  out.d = to_float(separation[0], separation[1]) * F8::all(1 + 0x1p-22f);
+  out.error = F8::all(7 * 0x1p-24f) * sqrt(dot(R, R)) * F8::all(1 + 0x1p-20f) + F8::all(0x1p-140f);
 }
 
 // Whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: the Bernstein coefficients
@@ -43,54 +52,116 @@ inline typename V::Mask separates(const V (&c0)[K][3], const V (&c1)[K][3], cons
   return apart;
 }
 
-template <class V, int K>
-inline void direction_at(const V (&c)[K][3], V (&w)[3]) {
+// A direction near the closest one: any direction is safe, so plain clamped closest points do, without the care that
+// advancement takes. The origin's closest point on the parallelogram c0 + u e1 + v e2 ...
+template <class V>
+inline V clamp01(V x) {
+  return min(max(x, zero<V>()), one<V>());
+}
+template <class V>
+inline void cheap_direction(const V (&c)[4][3], V (&w)[3]) {
   V e1[3], e2[3];
   spanning_edges(c, e1, e2);
-  best_direction(c, nearest_on_boundary(c), e1, e2, w);
+  const V floor = V::all(0x1p-100f);
+  const V aa = dot(e1, e1), ab = dot(e1, e2), bb = dot(e2, e2), p = dot(e1, c[0]), q = dot(e2, c[0]);
+  const V det = max(aa * bb - ab * ab, floor);
+  V u = clamp01((ab * q - bb * p) / det);
+  const V v = clamp01((zero<V>() - (q + ab * u)) / max(bb, floor));
+  u = clamp01((zero<V>() - (p + ab * v)) / max(aa, floor));
+  for (int a = 0; a < 3; ++a) w[a] = (c[0][a] + u * e1[a]) + v * e2[a];
 }
-
-// An upper bound of the share of the initial gap that the advancement adds to d.
-template <class V, int K>
-inline V kept_at_most(const V (&c)[K][3], const KernelPairs& pairs) {
-  // The point found errs by less than 10u rho < 2^-18.
-  const V gap = sqrt(nearest_on_boundary(c).f2) * V::all(1 + 0x1p-20f) + V::all(0x1p-18f);
-  return gap * V::all(static_cast<float>(pairs.keep) * (1 + 0x1p-20f));
+// ... and on the triangle: the normal where its foot is inside, else the closest point of the three sides.
+template <class V>
+inline V side_point(const V (&p)[3], const V (&q)[3], V (&f)[3]) {
+  V e[3];
+  for (int a = 0; a < 3; ++a) e[a] = q[a] - p[a];
+  const V s = clamp01((zero<V>() - dot(p, e)) / max(dot(e, e), V::all(0x1p-100f)));
+  for (int a = 0; a < 3; ++a) f[a] = p[a] + s * e[a];
+  return dot(f, f);
 }
-
-template <int K>
-inline int cull_eight(const KernelPairs& pairs, const int* rows) {
-  using V = F8;
-  V c[2][K][3], d, R[3];
-  float_corners(pairs, rows, c, d);
-  for (int a = 0; a < 3; ++a) {
-    R[a] = abs(c[0][0][a]);
-    for (int end = 0; end < 2; ++end)
-      for (int k = 0; k < K; ++k) R[a] = max(abs(c[end][k][a]), R[a]);
+template <class V>
+inline void cheap_direction(const V (&c)[3][3], V (&w)[3]) {
+  V e1[3], e2[3], n[3], f[3];
+  V nearest = side_point(c[0], c[1], w);
+  for (int k = 1; k < 3; ++k) {
+    const V here = side_point(c[k], c[(k + 1) % 3], f);
+    const auto nearer = here < nearest;
+    for (int a = 0; a < 3; ++a) w[a] = select(nearer, f[a], w[a]);
+    nearest = min(here, nearest);
   }
-  const V error = V::all(5.5f * 0x1p-24f) * sqrt(dot(R, R)) * V::all(1 + 0x1p-20f);
+  spanning_edges(c, e1, e2);
+  cross(e1, e2, n);
+  const V aa = dot(e1, e1), ab = dot(e1, e2), bb = dot(e2, e2), p = dot(e1, c[0]), q = dot(e2, c[0]);
+  const V det = aa * bb - ab * ab, u = ab * q - bb * p, v = ab * p - aa * q;
+  const auto inside = (u > zero<V>()) & (v > zero<V>()) & (u + v < det);
+  const V height = dot(n, c[0]);
+  const auto below = height < zero<V>();
+  for (int a = 0; a < 3; ++a) w[a] = select(inside, select(below, zero<V>() - n[a], n[a]), w[a]);
+}
+
+// w / |w| by one reciprocal: |w| <= 1 + 5u.
+template <class V>
+inline void shorten(V (&w)[3]) {
+  const V ww = dot(w, w);
+  const auto valid = (ww >= V::all(Thresholds<V>::tiny)) & (ww <= V::all(Thresholds<V>::huge));
+  const V inverse = select(valid, one<V>() / sqrt(select(valid, ww, one<V>())), zero<V>());
+  for (V& x : w) x = x * inverse;
+}
+
+// What is demanded along w: error, separation, and an upper bound of the share of the initial gap that advancement keeps.
+template <class V>
+inline V demand(const V (&w)[3], V d, V error, bool maximum_norm) {
+  return (error + d * norm_factor(w, maximum_norm)) * V::all(1 + 0x1p-19f);
+}
+template <class V, int K>
+inline V initial_gap(const V (&c)[K][3], V error) {  // the point found errs by less than 10u rho, below twice `error`
+  return (sqrt(nearest_on_boundary(c).f2) + V::all(2) * error) * V::all(1 + 0x1p-19f);
+}
+
+// The mask of pairs that are apart throughout. refined: in two halves, each with its own turning direction.
+template <int K>
+inline int cull_eight(const KernelPairs& pairs, const int* rows, bool refined) {
+  using V = F8;
+  FloatPairs<K> s;
+  float_corners(pairs, rows, s);
+  V d = s.d;
+  if (pairs.keep > 0) d = d + V::all(static_cast<float>(pairs.keep) * (1 + 0x1p-20f)) * initial_gap(s.c[0], s.error);
   V w0[3], w1[3];
-  direction_at(c[0], w0);
-  direction_at(c[1], w1);
-  const V up = V::all(1 + 0x1p-19f);
-  if (pairs.keep > 0) d = d + kept_at_most(c[0], pairs);
-  const V m0 = (error + d * norm_factor(w0, pairs.maximum_norm)) * up;
-  const V m2 = (error + d * norm_factor(w1, pairs.maximum_norm)) * up;
-  return bits(separates(c[0], c[1], w0, w1, m0, m2));
+  cheap_direction(s.c[0], w0);
+  cheap_direction(s.c[1], w1);
+  shorten(w0);
+  shorten(w1);
+  const V m0 = demand(w0, d, s.error, pairs.maximum_norm), m1 = demand(w1, d, s.error, pairs.maximum_norm);
+  if (!refined) return bits(separates(s.c[0], s.c[1], w0, w1, m0, m1));
+  V middle[K][3], wm[3];
+  for (int k = 0; k < K; ++k)
+    for (int a = 0; a < 3; ++a) middle[k][a] = V::all(0.5f) * (s.c[0][k][a] + s.c[1][k][a]);
+  cheap_direction(middle, wm);
+  shorten(wm);
+  const V mm = demand(wm, d, s.error, pairs.maximum_norm);
+  return bits(separates(s.c[0], middle, w0, wm, m0, mm) & separates(middle, s.c[1], wm, w1, mm, m1));
+}
+
+// Writes those of rows[0..count) that are not apart to kept (which may be rows itself); returns their number.
+template <int K>
+inline int cull_rows(const KernelPairs& pairs, const int* rows, int count, bool refined, int* kept) {
+  int survivors = 0;
+  for (int first = 0; first < count; first += 8) {
+    int here[8];
+    const int valid = count - first < 8 ? count - first : 8;
+    for (int l = 0; l < 8; ++l) here[l] = rows[first + (l < valid ? l : valid - 1)];
+    const int apart = cull_eight<K>(pairs, here, refined);
+    for (int l = 0; l < valid; ++l) {
+      kept[survivors] = here[l];
+      survivors += !(apart >> l & 1);
+    }
+  }
+  return survivors;
 }
 
 template <int K>
 inline int cull_all(const KernelPairs& pairs, int* survivors) {
-  int kept = 0;
-  for (int first = 0; first < pairs.count; first += 8) {
-    int rows[8];
-    const int here = pairs.count - first < 8 ? pairs.count - first : 8;
-    for (int l = 0; l < 8; ++l) rows[l] = first + (l < here ? l : here - 1);
-    const int apart = cull_eight<K>(pairs, rows);
-    for (int l = 0; l < here; ++l) {
-      survivors[kept] = first + l;
-      kept += !(apart >> l & 1);
-    }
-  }
-  return kept;
+  for (int i = 0; i < pairs.count; ++i) survivors[i] = i;
+  const int coarse = cull_rows<K>(pairs, survivors, pairs.count, false, survivors);
+  return cull_rows<K>(pairs, survivors, coarse, true, survivors);
 }

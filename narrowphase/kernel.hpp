@@ -10,6 +10,7 @@ struct KernelPairs {
   const int (*vertices)[4];  // one row a pair
   const double* separation;  // d of each pair, model length
   int count;
+  double scale;                // a power of two that brings the scene's largest corner difference near 1
   double tolerance;   // model length
   // Beyond d a pair must also keep this share of its certified initial gap, in [0, 1), plus `rounding` (model length), but
   // never more than half of what the share leaves.

@@ -24,6 +24,10 @@ const KernelTable& kernels_for(Kernel requested) {
   return scalar_kernels();
 }
 
+double power_of_two_near_one_over(double x) {
+  return x > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(x)) : 0x1p1000;
+}
+
 double thickness_of(const MeshData& mesh, const int* first, const int* last) {
   double r = 0;
   for (; first != last; ++first) r = std::max(r, mesh.thickness[std::size_t(*first)]);
@@ -53,7 +57,9 @@ void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
 }
 
 NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
-    : in_(input), kernels_(&kernels_for(input.options.kernel)) {}
+    : in_(input),
+      kernels_(&kernels_for(input.options.kernel)),
+      scale_(power_of_two_near_one_over(input.extent)) {}
 
 void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
                           NarrowPhaseScratch& scratch) const {
@@ -83,6 +89,7 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           reinterpret_cast<const int(*)[4]>(scratch.vertices.data()),
           scratch.separation.data(),
           int(count),
+          scale_,
           inclusion_only ? in_.tolerance : kSharpness * in_.tolerance,
           in_.keep,
           in_.rounding,
@@ -126,6 +133,10 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   }
 }
 
+Corners NarrowPhase::corners_of(const Case& c) const {
+  return make_corners(c.kind, in_.motion, c.input.vertices[c.row]);
+}
+
 // A pair that crawls: certify an interval and go on, or go on regardless for a while. Real contacts of
 // degenerate pairs converge slowly but steadily; what neither finishes is left for the inclusion root finder.
 KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelResult r) const {
@@ -154,10 +165,9 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
                          std::vector<PairResult>& out) const {
   KernelResult found = checked;
   PairResult r{c.pair, 0, 0, 0, Outcome::contact};
-  const Corners corners = make_corners(c.kind, in_.motion, c.input.vertices[c.row]);
   const double d = found.separation;
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
-  if (!inclusion_only && found.verdict == Verdict::stalled) found = push_on(c, corners, found);
+  if (!inclusion_only && found.verdict == Verdict::stalled) found = push_on(c, corners_of(c), found);
   stats.checks += found.checks - checked.checks;
   std::int64_t checks = found.checks;
   if (found.verdict == Verdict::free) return;
@@ -167,7 +177,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
   if (unclear) found.t = 0, found.delta = in_.tolerance / found.unit;
   if (unclear || found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only)) {
     const InclusionResult searched =
-        find_first_inclusion({corners, found.t, d, found.delta, in_.options.norm == Norm::maximum,
+        find_first_inclusion({corners_of(c), found.t, d, found.delta, in_.options.norm == Norm::maximum,
                               in_.options.max_checks - checks});
     ++stats.inclusion;
     stats.checks += searched.checks;
@@ -179,7 +189,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
       found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
   }
   if (in_.rounding > 0) note_kept(c, found, stats);
-  if (found.verdict == Verdict::initial) return finish_initial(c, corners, found, stats, out);
+  if (found.verdict == Verdict::initial) return finish_initial(c, corners_of(c), found, stats, out);
   if (found.verdict == Verdict::budget) r.outcome = Outcome::budget;
   r.toi = r.step_limit = found.t;
   r.tolerance = std::max(0.0, (found.distance - d) * found.unit);

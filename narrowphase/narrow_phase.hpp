@@ -16,6 +16,7 @@ struct NarrowPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
   double tolerance;  // model length, > 0
+  double extent;     // the largest corner difference in the scene, about
   const Options& options;
   double keep =
       0;  // share of each pair's initial gap beyond its separation that it must keep as well, in [0, 1)
@@ -76,6 +77,7 @@ class NarrowPhase {
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
   void note_kept(const Case& c, const KernelResult& found, NarrowPhaseStats& stats) const;
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
+  Corners corners_of(const Case& c) const;
   KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
   void finish(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
               std::vector<PairResult>& out) const;
@@ -85,6 +87,7 @@ class NarrowPhase {
 
   NarrowPhaseInput in_;
   const KernelTable* kernels_;
+  double scale_;
 };
 
 std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair pair);

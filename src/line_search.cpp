@@ -96,7 +96,7 @@ struct LineSearch::Held {
   HeldPairs pairs;
 
   NarrowPhaseInput input() const {
-    return {mesh.data(), scene->motion, start.stats.tolerance, options, keep, rounding};
+    return {mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, options, keep, rounding};
   }
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Stats& stats) {
   const double begun = scene.clock.seconds();
-  const NarrowPhase narrow({mesh.data(), scene.motion, stats.tolerance, options});
+  const NarrowPhase narrow({mesh.data(), scene.motion, stats.tolerance, stats.extent, options});
   PassResult pass = run_pass(*scene.broad, narrow, keep, 1.0);
   copy_counts(pass, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;

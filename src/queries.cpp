@@ -45,7 +45,8 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
   for (const auto& end : corners.c)
     for (const auto& corner : end)
       for (const double x : corner) largest = std::max(largest, std::fabs(x));
-  const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, largest * corners.unit), options});
+  const double extent = largest * corners.unit;
+  const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, extent), extent, options});
   NarrowPhaseScratch scratch;
   std::vector<PairResult> found;
   const IdPair pair = kind == PairKind::vertex_face ? IdPair{0, 0} : IdPair{0, 1};
