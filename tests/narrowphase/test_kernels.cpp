@@ -21,8 +21,9 @@ namespace {
 bool same(double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; }
 
 bool same(const KernelResult& a, const KernelResult& b) {
-  return same(a.t, b.t) && same(a.distance, b.distance) && same(a.delta, b.delta) && same(a.unit, b.unit) &&
-         a.checks == b.checks && a.verdict == b.verdict;
+  return same(a.t, b.t) && same(a.distance, b.distance) && same(a.delta, b.delta) &&
+         same(a.separation, b.separation) && same(a.unit, b.unit) && a.checks == b.checks &&
+         a.verdict == b.verdict;
 }
 
 std::vector<int> culled(const KernelTable& table, PairKind kind, const KernelPairs& pairs) {
@@ -52,6 +53,7 @@ std::vector<KernelResume> resumed(const std::vector<KernelResult>& results) {
   for (const KernelResult& r : results) {
     KernelResume next{};
     next.t = r.t < 1 ? r.t : 0.5;
+    next.separation = r.separation;
     next.delta = r.delta;
     next.checks = 1;
     next.patience = double(resume.size() % 3) * 20;
@@ -102,8 +104,11 @@ TEST_CASE("scalar and AVX2 kernels give the same bytes for any pair", "[simd][pr
     Random random(61);
     for (int i = 0; i < fuzz(600); ++i) {
       const KernelBatch batch = mixed_batch(kind, 200, random);
-      compare_copies(batch, batch.pairs(scenes::power_of_ten(random, -12, 0), scenes::coin(random),
-                                        scenes::integer(random, 0, 2) ? 500 : 3));
+      KernelPairs pairs = batch.pairs(scenes::power_of_ten(random, -12, 0), scenes::coin(random),
+                                      scenes::integer(random, 0, 2) ? 500 : 3);
+      if (scenes::coin(random))
+        pairs.keep = scenes::unit(random), pairs.rounding = scenes::power_of_ten(random, -16, -2);
+      compare_copies(batch, pairs);
     }
   }
 }

@@ -1,0 +1,4 @@
+#define ONSET_KERNEL values_plain
+#define ONSET_KERNEL_VALUES kernel_values_plain
+#define ONSET_CERTIFICATES certificates_plain
+#include "tests/narrowphase/kernel_values.inl"
