@@ -12,16 +12,26 @@ struct FloatPairs {
   F8 error;       // bound of a coefficient's error
 };
 
+// Only [0, horizon] matters: the far end moves there. Certified to stay beyond d + reach until then, a pair cannot be reported
+// earlier, so the limiting pair is the same as without a horizon. (The lerp's 3u is far below float's rounding.)
+template <int K>
+inline void cut_short(D4 (&c)[2][K][3], D4 horizon) {
+  for (int k = 0; k < K; ++k)
+    for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], horizon);
+}
+
 template <int K>
 inline void float_corners(const KernelPairs& pairs, const int* rows, FloatPairs<K>& out) {
   D4 lanes[2][2][K][3], separation[2];
   const D4 scale = D4::all(pairs.scale);
+  const double beyond = pairs.horizon < 1 ? pairs.reach : 0;
   for (int half = 0; half < 2; ++half) {
     Points<D4> p;
     gather(pairs, rows + 4 * half, p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
+    if (pairs.horizon < 1) cut_short(lanes[half], D4::all(pairs.horizon));
     double of_pair[4];
-    for (int l = 0; l < 4; ++l) of_pair[l] = pairs.separation[rows[4 * half + l]] + pairs.rounding;
+    for (int l = 0; l < 4; ++l) of_pair[l] = pairs.separation[rows[4 * half + l]] + pairs.rounding + beyond;
     separation[half] = D4::load(of_pair) * scale;
   }
   F8 R[3] = {zero<F8>(), zero<F8>(), zero<F8>()};

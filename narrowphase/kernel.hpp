@@ -11,7 +11,8 @@ struct KernelPairs {
   const double* separation;  // d of each pair, model length
   int count;
   double scale;                // a power of two that brings the scene's largest corner difference near 1
-  double tolerance;   // model length
+  double tolerance;  // model length
+  double reach;      // a pair reported at time t is within d + reach then, model length
   // Beyond d a pair must also keep this share of its certified initial gap, in [0, 1), plus `rounding` (model length), but
   // never more than half of what the share leaves.
   double keep, rounding;

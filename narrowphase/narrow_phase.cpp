@@ -91,6 +91,7 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           int(count),
           scale_,
           inclusion_only ? in_.tolerance : kSharpness * in_.tolerance,
+          in_.tolerance,
           in_.keep,
           in_.rounding,
           horizon,

@@ -1,7 +1,7 @@
 #include "src/pass.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <cstdint>
 
 #include "base/parallel.hpp"
 
@@ -10,8 +10,10 @@ namespace {
 
 constexpr std::size_t kBlocksATask = 16;
 
-std::tuple<int, int, int> identity(const FoundPair& f) {
-  return {int(f.kind), f.result.pair.a, f.result.pair.b};
+// Ids are not negative: one number orders a kind's pairs as (a, b) does.
+std::uint64_t order(const FoundPair& f) {
+  return std::uint64_t(f.kind == PairKind::edge_edge) << 63 | std::uint64_t(f.result.pair.a) << 32 |
+         std::uint64_t(f.result.pair.b);
 }
 
 class Pass {
@@ -19,17 +21,25 @@ class Pass {
   Pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon)
       : pairs_(pairs), narrow_(narrow), keep_(keep), horizon_(horizon) {}
 
-  void run(PairKind kind, NarrowPhaseStats& stats) {
-    parallel_ranges(pairs_.blocks(kind), kBlocksATask, [&](std::size_t first, std::size_t last) {
+  // Every stride-th block.
+  void run(PairKind kind, std::size_t stride, NarrowPhaseStats& stats) {
+    const std::size_t blocks = (pairs_.blocks(kind) + stride - 1) / stride;
+    parallel_ranges(blocks, kBlocksATask, [&](std::size_t first, std::size_t last) {
       if (ended()) return;
       Task task{*this, kind, {}, {}};
-      pairs_.traverse(kind, first, last, {&task, &Task::consume});
+      if (stride == 1)
+        pairs_.traverse(kind, first, last, {&task, &Task::consume});
+      else
+        for (std::size_t i = first; i < last; ++i)
+          pairs_.traverse(kind, i * stride, i * stride + 1, {&task, &Task::consume});
       merge(kind, task, stats);
     });
   }
 
   std::vector<FoundPair> take() {
-    if (keep_ == Keep::all) parallel_sort(found_.begin(), found_.end(), before);
+    if (keep_ == Keep::all)
+      parallel_sort(found_.begin(), found_.end(),
+                    [](const FoundPair& x, const FoundPair& y) { return order(x) < order(y); });
     return std::move(found_);
   }
 
@@ -89,18 +99,19 @@ class Pass {
 
 }  // namespace
 
-bool before(const FoundPair& x, const FoundPair& y) { return identity(x) < identity(y); }
+bool before(const FoundPair& x, const FoundPair& y) { return order(x) < order(y); }
 
 bool limits_before(const FoundPair& x, const FoundPair& y) {
   return x.result.step_limit != y.result.step_limit ? x.result.step_limit < y.result.step_limit
                                                     : before(x, y);
 }
 
-PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon) {
+PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
+                    std::size_t stride) {
   PassResult result;
   Pass pass(pairs, narrow, keep, horizon);
-  pass.run(PairKind::vertex_face, result.vertex_face);
-  pass.run(PairKind::edge_edge, result.edge_edge);
+  pass.run(PairKind::vertex_face, stride, result.vertex_face);
+  pass.run(PairKind::edge_edge, stride, result.edge_edge);
   result.found = pass.take();
   return result;
 }

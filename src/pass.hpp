@@ -32,8 +32,10 @@ struct PassResult {
   NarrowPhaseStats vertex_face, edge_edge;
 };
 
-// `horizon`: pairs certified apart beyond it may be dropped.
-PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon);
+// `horizon`: pairs certified apart beyond it may be dropped. `stride`: only every stride-th block of pairs is
+// looked at.
+PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
+                    std::size_t stride = 1);
 
 void copy_counts(const PassResult& pass, Stats& stats);
 Pair to_pair(const Mesh& mesh, const FoundPair& found);

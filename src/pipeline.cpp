@@ -11,10 +11,31 @@
 namespace onset {
 namespace {
 
+// Below this many checks a pair may be reported far from contact, and a horizon could hide it.
+constexpr std::int64_t kChecksForHorizon = 1000;
+constexpr std::size_t kSampledBlocks = 64;  // one in so many
+
+// Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that
+// horizon, and the whole is passed once with a horizon that shrinks further. A pair reported at t is within d
+// + tolerance then, so boxes that are wider by the tolerance on [0, horizon] lose none that is reported by
+// then: the result is the minimum of the active set.
+double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options,
+                         const Stats& stats) {
+  if (options.max_checks < kChecksForHorizon) return 1;
+  const PassResult sample = run_pass(*scene.broad, narrow, Keep::limiting, 1, kSampledBlocks);
+  if (sample.found.empty()) return 1;
+  const double horizon = sample.found[0].result.step_limit;
+  if (horizon > 0.5) return horizon;
+  const double inflation = 0.5 * (options.min_separation + stats.tolerance) * (1 + 0x1p-50);
+  scene.broad->refit({mesh.data(), scene.motion, inflation, horizon, BoxTest::motion, options.kernel});
+  return horizon;
+}
+
 PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Stats& stats) {
   const double begun = scene.clock.seconds();
   const NarrowPhase narrow({mesh.data(), scene.motion, stats.tolerance, stats.extent, options});
-  PassResult pass = run_pass(*scene.broad, narrow, keep, 1.0);
+  const double horizon = keep == Keep::limiting ? shrink_to_horizon(mesh, scene, narrow, options, stats) : 1;
+  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon);
   copy_counts(pass, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;
   stats.seconds_total = scene.clock.seconds();
