@@ -1,0 +1,91 @@
+// Touching, or closer than the separation, at the start: what presses is told from what parts.
+#include <cmath>
+#include <onset/onset.hpp>
+
+#include "tests/catch.hpp"
+
+using namespace onset;
+
+namespace {
+
+VertexFaceQuery moving_vertex(Point from, Point to) {
+  const Point f0{0, 0, 0}, f1{1, 0, 0}, f2{0, 1, 0};
+  return {{from, f0, f1, f2}, {to, f0, f1, f2}};
+}
+Outcome outcome(Point from, Point to, double d = 0) {
+  Options options;
+  options.min_separation = d;
+  return vertex_face_ccd(moving_vertex(from, to), options).outcome;
+}
+EdgeEdgeQuery crossing_edges(double height_t0, double height_t1) {
+  const auto a = [](double h) { return std::array<Point, 2>{Point{-1, 0, h}, Point{1, 0, h}}; };
+  const Point b0{0, -1, 0}, b1{0, 1, 0};
+  return {{a(height_t0)[0], a(height_t0)[1], b0, b1}, {a(height_t1)[0], a(height_t1)[1], b0, b1}};
+}
+
+// One face below, one vertex's face above it: the upper one moves.
+StepResult step_of(double from, double to, double d = 0) {
+  Eigen::MatrixXd x0(6, 3);
+  x0 << 0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, from, 1.25, .5, from + 1, .5, 1.25, from + 1;
+  Eigen::MatrixXi F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;
+  Eigen::MatrixXd x1 = x0;
+  for (int v = 3; v < 6; ++v) x1(v, 2) += to - from;
+  Options options;
+  options.min_separation = d;
+  return compute_collision_free_stepsize(Mesh(x0, F), x0, x1, options);
+}
+
+}  // namespace
+
+TEST_CASE("a touching pair that parts is told from one that presses", "[unit]") {
+  CHECK(outcome({.25, .25, 0}, {.25, .25, 1}) == Outcome::initial_separating);
+  CHECK(outcome({.25, .25, 0}, {.25, .25, 0}) == Outcome::initial_separating);  // at rest
+  CHECK(outcome({0, 0, 0}, {-1, -1, .1}) == Outcome::initial_separating);       // vertex on vertex
+  CHECK(outcome({.5, 0, 0}, {.5, -1, 0}) == Outcome::initial_separating);       // vertex on side
+  CHECK(outcome({.5, 0, 0}, {.5, .2, 0}) == Outcome::initial_contact);  // slides into the face's plane
+  CHECK(edge_edge_ccd(crossing_edges(0, 1)).outcome == Outcome::initial_separating);
+}
+
+TEST_CASE("a pair apart by less than rounding can show is still never let through", "[unit]") {
+  for (const double gap : {1e-17, 1e-25, 1e-40}) {
+    CHECK(outcome({.25, .25, gap}, {.25, .25, -1}) == Outcome::initial_contact);
+    CHECK(outcome({.25, .25, gap}, {.25, .25, 1}) == Outcome::initial_separating);
+    CHECK(outcome({.25, .25, -gap}, {.25, .25, 1}) == Outcome::initial_contact);
+    CHECK(outcome({.25, .25, -gap}, {.25, .25, -1}) == Outcome::initial_separating);
+    CHECK(edge_edge_ccd(crossing_edges(gap, -1)).outcome == Outcome::initial_contact);
+    CHECK(edge_edge_ccd(crossing_edges(gap, 1)).outcome == Outcome::initial_separating);
+    CHECK(edge_edge_ccd(crossing_edges(-gap, 1)).outcome == Outcome::initial_contact);
+  }
+}
+
+TEST_CASE("closer than the separation: receding goes free, approaching gives step 0 with the pair",
+          "[unit]") {
+  CHECK(outcome({.25, .25, .05}, {.25, .25, 1}, .1) == Outcome::initial_separating);
+  CHECK(outcome({.25, .25, .05}, {.25, .25, .06}, .1) == Outcome::initial_separating);
+  CHECK(outcome({.25, .25, .05}, {.45, .25, .05}, .1) == Outcome::initial_separating);  // keeps its distance
+  CHECK(outcome({.25, .25, .05}, {.25, .25, .04}, .1) == Outcome::initial_contact);
+
+  const StepResult receding = step_of(.05, .5, .1);
+  CHECK(receding.step == 1);
+  CHECK(receding.outcome == Outcome::free);
+  const StepResult pressing = step_of(.05, -.5, .1);
+  CHECK(pressing.step == 0);
+  CHECK(pressing.outcome == Outcome::initial_contact);
+  CHECK(pressing.limiting.a >= 0);
+}
+
+TEST_CASE("a pair that parts and is met again later limits the step there", "[unit]") {
+  // The vertex leaves the first face, and flies into a second one parallel to it at height 1.
+  Eigen::MatrixXd x0(7, 3);
+  x0 << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, .25, .25, 0;
+  Eigen::MatrixXi F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;
+  Eigen::MatrixXd x1 = x0;
+  x1(6, 2) = 2;
+  const StepResult r = compute_collision_free_stepsize(Mesh(x0, F), x0, x1);
+  CHECK(r.outcome == Outcome::contact);
+  CHECK(r.step < 0.5);
+  CHECK(r.step > 0.499);
+  CHECK(r.limiting.b == 1);
+}

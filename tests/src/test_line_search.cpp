@@ -1,0 +1,95 @@
+#include <cmath>
+#include <onset/onset.hpp>
+
+#include "tests/catch.hpp"
+
+using namespace onset;
+
+namespace {
+
+// A triangle above another, and where it would like to be: below it.
+struct TwoTriangles {
+  Eigen::MatrixXd x{6, 3}, target;
+  Eigen::MatrixXi F{2, 3};
+  TwoTriangles() {
+    x << 0, 0, 0, 1, 0, 0, 0, 1, 0, .2, .2, .5, 1.2, .2, .6, .2, 1.2, .7;
+    F << 0, 1, 2, 3, 4, 5;
+    target = x;
+    for (int v = 3; v < 6; ++v) target(v, 2) -= 1;
+  }
+  Mesh mesh() const { return Mesh(x, F); }
+};
+
+}  // namespace
+
+TEST_CASE("steps along one direction approach a contact and never reach it", "[unit]") {
+  TwoTriangles s;
+  const Mesh mesh = s.mesh();
+  const double keep = 0.2;
+  Eigen::MatrixXd x = s.x;
+  double gap = x(3, 2);
+  for (int i = 0; i < 15; ++i) {  // down to gaps of 1e-11
+    const LineSearchStep r = LineSearch(mesh, x, s.target - x, {}, keep).largest_step();
+    REQUIRE(r.result.step > 0);
+    REQUIRE(r.result.outcome == Outcome::contact);
+    CHECK_FALSE(r.keep_reduced);
+    CHECK(r.keep == keep);
+    x = x + r.result.step * (s.target - x);
+    CHECK(x(3, 2) >= keep * gap);          // after rounding to doubles
+    CHECK(x(3, 2) <= (keep + (1 - keep) / 4) * gap * (1 + 1e-9));  // the stop rule: a quarter of the rest
+    gap = x(3, 2);
+  }
+}
+
+TEST_CASE("a gap that rounding can close is named", "[unit]") {
+  TwoTriangles s;
+  s.x.col(2).tail(3).array() += 4e-15 - 0.5;
+  const LineSearchStep r = LineSearch(s.mesh(), s.x, s.target - s.x).largest_step();
+  CHECK(r.keep_reduced);
+  CHECK(r.keep < 0.2);
+  CHECK(r.closest.a >= 0);
+  CHECK(r.rounding > 0);
+}
+
+TEST_CASE("the largest step keeps the separation as well", "[unit]") {
+  TwoTriangles s;
+  Options options;
+  options.min_separation = 0.1;
+  const LineSearchStep r = LineSearch(s.mesh(), s.x, s.target - s.x, options, 0.25).largest_step();
+  const double height = s.x(3, 2) - r.result.step;
+  CHECK(height >= 0.1 + 0.25 * 0.4);
+  CHECK(height <= 0.1 + 0.25 * 0.4 + 1e-3);
+}
+
+TEST_CASE("without a share to keep the line search agrees with the step size", "[unit]") {
+  TwoTriangles s;
+  const LineSearchStep r = LineSearch(s.mesh(), s.x, s.target - s.x, {}, 0).largest_step();
+  const StepResult whole = compute_collision_free_stepsize(s.mesh(), s.x, s.target);
+  CHECK(r.result.step <= whole.step);  // room for rounding is kept
+  CHECK(r.result.step >= whole.step * (1 - 1e-9));
+  CHECK(r.result.limiting.a == whole.limiting.a);
+}
+
+TEST_CASE("an upper bound below the contact is returned as it is", "[unit]") {
+  TwoTriangles s;
+  const LineSearch search(s.mesh(), s.x, s.target - s.x);
+  const LineSearchStep r = search.largest_step(0.25);
+  CHECK(r.result.step == 0.25);
+  CHECK(r.result.outcome == Outcome::free);
+  CHECK(search.candidates().total() > 0);
+}
+
+TEST_CASE("line search arguments out of range are rejected, bad motion is an outcome", "[unit]") {
+  TwoTriangles s;
+  const Eigen::MatrixXd dx = s.target - s.x;
+  CHECK_THROWS_AS(LineSearch(s.mesh(), s.x, dx, {}, 1.0), std::invalid_argument);
+  CHECK_THROWS_AS(LineSearch(s.mesh(), s.x, dx, {}, NAN), std::invalid_argument);
+  CHECK_THROWS_AS(LineSearch(s.mesh(), s.x, dx.topRows(4)), std::invalid_argument);
+  CHECK_THROWS_AS(LineSearch(s.mesh(), s.x, dx).largest_step(1.5), std::invalid_argument);
+  Eigen::MatrixXd broken = dx;
+  broken(2, 1) = NAN;
+  const LineSearchStep r = LineSearch(s.mesh(), s.x, broken).largest_step();
+  CHECK(r.result.outcome == Outcome::non_finite);
+  CHECK(r.result.vertex == 2);
+  CHECK(r.result.step == 0);
+}
