@@ -48,6 +48,20 @@ onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onse
                                               : onset::edge_edge_ccd({query.t0, query.t1}, options);
 }
 
+// Microseconds of one call; the shortest of three where it took long, so that being interrupted does not count.
+template <class Call>
+double timed(Call&& call) {
+  double shortest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    call();
+    const std::chrono::duration<double, std::micro> us = std::chrono::steady_clock::now() - start;
+    shortest = i == 0 ? us.count() : std::min(shortest, us.count());
+    if (shortest < 500) break;
+  }
+  return shortest;
+}
+
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == text.npos) return text;
   std::string quoted = "\"";
@@ -59,10 +73,9 @@ void run_file(FileTally& file, const onset::Options& options, Output* csv, Progr
   const std::vector<TruthQuery> queries = read_queries(file.file);
   const std::string name = csv_field(file.file);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    const onset::QueryResult result = ask(file.kind, queries[i], options);
-    const std::chrono::duration<double, std::micro> us = std::chrono::steady_clock::now() - start;
-    file.tally.add(result, queries[i].collides, us.count());
+    onset::QueryResult result;
+    const double us = timed([&] { result = ask(file.kind, queries[i], options); });
+    file.tally.add(result, queries[i].collides, us);
     if (csv)
       csv->write(format("%s,%zu,%s,%s,%.17g\n", name.c_str(), i, kind_name(file.kind),
                         onset::to_string(result.outcome), result.toi));
