@@ -1,45 +1,46 @@
-// Which cells of a uniform grid a box covers.
+// A uniform grid, and which of its cells a box covers.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "broadphase/motion_box.hpp"
-#include "broadphase/supports.hpp"
-
 namespace onset {
 
-// Cells are counted from the middle of 2^20 an axis, and the outermost take all that lies beyond. The cell of
-// a coordinate is monotone in it, so boxes that overlap share the cell of the lower corner of their
-// intersection: a pair is reported there.
+// A swept box in float (monotone map: supports.hpp).
+struct FloatBox {
+  std::array<float, 3> lo, hi;
+};
+
+// 2^20 cells an axis around the origin; the outermost take all that lies beyond. The cell of a coordinate is
+// monotone in it, so boxes that overlap share the cell of the lower corner of their intersection: that is
+// where their pair is reported.
 class CellGrid {
  public:
-  struct Range {
-    std::array<std::uint32_t, 3> lo, hi;  // inclusive
-  };
-  struct Entry {
-    std::uint64_t cell;
-    int id;
-    bool second;  // side of the pair
-    bool operator<(const Entry& e) const {
-      return cell != e.cell ? cell < e.cell : second != e.second ? !second : id < e.id;
-    }
-  };
-
   // Cells about twice as wide as the mean box, wider where `limit` entries would not do.
-  CellGrid(const FloatMap& map, const std::vector<const std::vector<MotionBox>*>& sets, std::size_t limit);
+  CellGrid(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit);
 
-  Range range(const MotionBox& box) const;
-  void append(const std::vector<MotionBox>& boxes, bool second, std::vector<Entry>& entries) const;
+  // f(cell) for every cell that the box covers.
+  template <class F>
+  void visit(const FloatBox& box, F&& f) const {
+    const Corner lo = corner(box.lo), hi = corner(box.hi);
+    for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
+      for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
+        for (std::uint32_t x = lo[0]; x <= hi[0]; ++x) f(number({x, y, z}));
+  }
 
-  // The cell in which the pair (a, b) is reported; no cell where the boxes do not overlap.
-  static std::uint64_t cell_of_pair(const Range& a, const Range& b);
+  std::uint64_t cell(const std::array<float, 3>& point) const { return number(corner(point)); }
 
  private:
-  std::uint32_t cell(double x, std::size_t axis) const;
-  std::size_t entries(const std::vector<const std::vector<MotionBox>*>& sets, std::size_t limit) const;
+  static constexpr int kBits = 20;
+  using Corner = std::array<std::uint32_t, 3>;
 
-  FloatMap map_;
+  static std::uint64_t number(const Corner& c) {
+    return std::uint64_t(c[0]) | std::uint64_t(c[1]) << kBits | std::uint64_t(c[2]) << 2 * kBits;
+  }
+  Corner corner(const std::array<float, 3>& point) const;
+  bool fits(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit) const;
+
   double cells_per_unit_ = 1;
 };
 

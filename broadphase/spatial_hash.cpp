@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "broadphase/cell_grid.hpp"
 #include "broadphase/pair_batch.hpp"
+#include "broadphase/supports.hpp"
 
 namespace onset {
 
@@ -14,48 +15,101 @@ namespace {
 constexpr std::size_t kEntriesEach = 8;      // cells a primitive may cover on average: bounds the memory
 constexpr std::size_t kEntriesABlock = 512;  // of traversal, more where one cell holds more
 
+struct Boxes {
+  std::vector<MotionBox> exact;
+  std::vector<FloatBox> swept;
+};
+
+Boxes make_boxes(const BroadPhaseInput& input, const FloatMap& map, Primitive kind) {
+  Boxes boxes;
+  boxes.exact = motion_boxes(input, kind);
+  boxes.swept.reserve(boxes.exact.size());
+  for (const MotionBox& b : boxes.exact) {
+    FloatBox f;
+    for (std::size_t i = 0; i < 3; ++i) {
+      f.lo[i] = map(std::min(b.lo_t0[i], b.lo_t1[i]), i);
+      f.hi[i] = map(std::max(b.hi_t0[i], b.hi_t1[i]), i);
+    }
+    boxes.swept.push_back(f);
+  }
+  return boxes;
+}
+
+struct Entry {
+  std::uint64_t cell;
+  int id;
+  bool second;  // side of the pair
+};
+
 // The primitives of both sides of a kind of pairs, by cell.
 class Cells {
  public:
-  Cells(const FloatMap& map, const std::vector<MotionBox>& first, const std::vector<MotionBox>& second,
-        bool self) {
-    std::vector<const std::vector<MotionBox>*> sets{&first};
-    if (!self) sets.push_back(&second);
-    const CellGrid grid(map, sets, kEntriesEach * (first.size() + (self ? 0 : second.size())));
-    grid.append(first, false, entries_);
-    if (!self) grid.append(second, true, entries_);
-    parallel_sort(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) { return a < b; });
+  Cells(const std::vector<FloatBox>& first, const std::vector<FloatBox>& second, bool self)
+      : sides_{&first, &second},
+        self_(self),
+        grid_(self ? std::vector{&first} : std::vector{&first, &second},
+              kEntriesEach * (first.size() + (self ? 0 : second.size()))) {
+    for (int side = 0; side < (self ? 1 : 2); ++side)
+      for (std::size_t id = 0; id < sides_[side]->size(); ++id)
+        grid_.visit((*sides_[side])[id], [&](std::uint64_t cell) {
+          entries_.push_back({cell, int(id), side == 1});
+        });
+    parallel_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+      return a.cell != b.cell ? a.cell < b.cell : a.second != b.second ? b.second : a.id < b.id;
+    });
     for (std::size_t i = 0; i < entries_.size(); ++i)
       if (i == 0 || (i - block_starts_.back() >= kEntriesABlock && entries_[i].cell != entries_[i - 1].cell))
         block_starts_.push_back(i);
     block_starts_.push_back(entries_.size());
-    for (const MotionBox& b : first) first_ranges_.push_back(grid.range(b));
-    if (!self)
-      for (const MotionBox& b : second) second_ranges_.push_back(grid.range(b));
   }
 
   std::size_t blocks() const { return block_starts_.size() - 1; }
 
-  // f(a, b) for each pair of primitives that meet in a cell of these blocks and are to be reported there.
+  // f(a, b) once for each pair whose swept float boxes overlap, in the cell where it is to be reported.
   template <class F>
-  void visit(std::size_t first, std::size_t last, bool self, F&& f) const {
+  void visit(std::size_t first, std::size_t last, F&& f) const {
+    std::vector<Member> members;
     const std::size_t end = block_starts_[last];
-    const auto& other = self ? first_ranges_ : second_ranges_;
-    for (std::size_t begin = block_starts_[first], stop; begin < end; begin = stop) {
-      for (stop = begin; stop < end && entries_[stop].cell == entries_[begin].cell;) ++stop;
-      for (std::size_t i = begin; i < stop && !entries_[i].second; ++i)
-        for (std::size_t j = i + 1; j < stop; ++j) {
-          if (entries_[j].second == self) continue;
-          const std::size_t a = std::size_t(entries_[i].id), b = std::size_t(entries_[j].id);
-          if (CellGrid::cell_of_pair(first_ranges_[a], other[b]) == entries_[i].cell) f(int(a), int(b));
-        }
+    for (std::size_t i = block_starts_[first]; i < end;) {
+      const std::uint64_t cell = entries_[i].cell;
+      members.clear();
+      for (; i < end && entries_[i].cell == cell; ++i)
+        members.push_back(
+            {(*sides_[entries_[i].second])[std::size_t(entries_[i].id)], entries_[i].id, entries_[i].second});
+      sweep(members, cell, f);
     }
   }
 
  private:
-  std::vector<CellGrid::Entry> entries_;
+  struct Member {
+    FloatBox box;
+    int id;
+    bool second;
+  };
+
+  // By lower end along the first axis; each against those that begin before it ends.
+  template <class F>
+  void sweep(std::vector<Member>& members, std::uint64_t cell, F&& f) const {
+    std::sort(members.begin(), members.end(), [](const Member& p, const Member& q) {
+      if (p.box.lo[0] != q.box.lo[0]) return p.box.lo[0] < q.box.lo[0];
+      return p.second != q.second ? q.second : p.id < q.id;
+    });
+    for (auto p = members.begin(); p != members.end(); ++p)
+      for (auto q = p + 1; q != members.end() && q->box.lo[0] <= p->box.hi[0]; ++q) {
+        if (p->second == q->second && !self_) continue;
+        const FloatBox &a = p->box, &b = q->box;
+        if (b.lo[1] > a.hi[1] || a.lo[1] > b.hi[1] || b.lo[2] > a.hi[2] || a.lo[2] > b.hi[2]) continue;
+        if (grid_.cell({b.lo[0], std::max(a.lo[1], b.lo[1]), std::max(a.lo[2], b.lo[2])}) != cell) continue;
+        const bool swap = self_ ? p->id > q->id : p->second;
+        swap ? f(q->id, p->id) : f(p->id, q->id);
+      }
+  }
+
+  const std::vector<FloatBox>* sides_[2];
+  bool self_;
+  CellGrid grid_;
+  std::vector<Entry> entries_;
   std::vector<std::size_t> block_starts_;
-  std::vector<CellGrid::Range> first_ranges_, second_ranges_;
 };
 
 class SpatialHash final : public BroadPhase {
@@ -70,20 +124,20 @@ class SpatialHash final : public BroadPhase {
     if (!finite_) return;
     const FloatMap map = make_float_map(input.motion);
     for (Primitive kind : {Primitive::vertex, Primitive::edge, Primitive::face})
-      boxes_[std::size_t(kind)] = motion_boxes(input, kind);
+      boxes_[std::size_t(kind)] = make_boxes(input, map, kind);
     for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
-      cells_[std::size_t(kind)].emplace(map, boxes(first_primitive(kind)), boxes(second_primitive(kind)),
-                                        kind == PairKind::edge_edge);
+      cells_[std::size_t(kind)].emplace(boxes(first_primitive(kind)).swept,
+                                        boxes(second_primitive(kind)).swept, kind == PairKind::edge_edge);
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return finite_ && !boxes(second_primitive(kind)).empty() ? cells_[std::size_t(kind)]->blocks() : 0;
+    return finite_ ? cells_[std::size_t(kind)]->blocks() : 0;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
-    const auto &A = boxes(first_primitive(kind)), &B = boxes(second_primitive(kind));
+    const auto &A = boxes(first_primitive(kind)).exact, &B = boxes(second_primitive(kind)).exact;
     PairBatch batch(sink);
-    cells_[std::size_t(kind)]->visit(first, last, kind == PairKind::edge_edge, [&](int a, int b) {
+    cells_[std::size_t(kind)]->visit(first, last, [&](int a, int b) {
       if (boxes_pass(test_, A[std::size_t(a)], B[std::size_t(b)]) && !share_vertex(mesh_, kind, a, b))
         batch.add(a, b);
     });
@@ -91,12 +145,12 @@ class SpatialHash final : public BroadPhase {
   }
 
  private:
-  const std::vector<MotionBox>& boxes(Primitive kind) const { return boxes_[std::size_t(kind)]; }
+  const Boxes& boxes(Primitive kind) const { return boxes_[std::size_t(kind)]; }
 
   const MeshData& mesh_;
   BoxTest test_ = BoxTest::motion;
   bool finite_ = false;
-  std::array<std::vector<MotionBox>, 3> boxes_;
+  std::array<Boxes, 3> boxes_;
   std::array<std::optional<Cells>, 2> cells_;
 };
 
