@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/orientation.hpp"
+#include "narrowphase/vec.hpp"
 
 namespace onset {
 namespace {
@@ -11,29 +12,13 @@ namespace {
 constexpr double kU = 0x1p-53;
 constexpr int kHalvings = 24;
 
-struct Vec {
-  double x[3];
-};
-double dot(const Vec& a, const Vec& b) { return (a.x[0] * b.x[0] + a.x[1] * b.x[1]) + a.x[2] * b.x[2]; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {{a.x[1] * b.x[2] - a.x[2] * b.x[1], a.x[2] * b.x[0] - a.x[0] * b.x[2],
-           a.x[0] * b.x[1] - a.x[1] * b.x[0]}};
-}
-Vec scaled(double s, const Vec& a) { return {{s * a.x[0], s * a.x[1], s * a.x[2]}}; }
-Vec sum(const Vec& a, const Vec& b) { return {{a.x[0] + b.x[0], a.x[1] + b.x[1], a.x[2] + b.x[2]}}; }
-// a / |a|, or 0.
-Vec unit(const Vec& a) {
-  const double n = std::sqrt(dot(a, a));
-  return n > 0x1p-300 ? scaled(1 / n, a) : Vec{};
-}
-
 struct Hull {
   int count;
   Vec c[4];
   Hull(const Corners& corners, double t) : count(corners.count) {
     double at[4][3];
     corners.at(t, at);
-    for (int k = 0; k < count; ++k) c[k] = {{at[k][0], at[k][1], at[k][2]}};
+    for (int k = 0; k < count; ++k) c[k] = vec(at[k]);
   }
   double least(const Vec& n) const {
     double r = dot(n, c[0]);
@@ -61,7 +46,7 @@ struct Side {
 };
 Side side_at_start(const InitialCase& c) {
   const Corners& q = c.corners;
-  const auto edge = [&](int i) { return Vec{{q.e[0][i][0], q.e[0][i][1], q.e[0][i][2]}}; };
+  const auto edge = [&](int i) { return vec(q.e[0][i]); };
   const double* p[4];
   for (int i = 0; i < 4; ++i) p[i] = c.pairs.x + std::ptrdiff_t(c.pairs.vertices[c.row][i]) * kMotionStride;
   // vertex-face: (v1 - v0) x (v2 - v1) . (p - v0), edge-edge: (a1 - a0) x (b1 - b0) . (a0 - b0).
@@ -80,9 +65,9 @@ Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, doubl
   double widest_size = 0;
   const auto consider = [&](const Vec& ray) {
     for (const double s : {1.0, -1.0}) {
-      const Vec n = unit(scaled(s, ray));
+      const Vec n = unit(s * ray);
       if (from.least(n) < -noise || to.least(n) < -noise || !side.allows(n)) continue;
-      total = sum(total, n);
+      total = total + n;
     }
   };
   for (int i = 0; i < count; ++i) {

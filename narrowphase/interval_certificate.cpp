@@ -3,29 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "narrowphase/vec.hpp"
+
 namespace onset {
 namespace {
 
 constexpr double kU = 0x1p-53;
 
-struct Vec {
-  double x[3];
-  double operator[](int a) const { return x[a]; }
-  double& operator[](int a) { return x[a]; }
-};
-Vec operator+(Vec a, Vec b) { return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}}; }
-Vec operator-(Vec a, Vec b) { return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}}; }
-Vec operator*(double s, Vec a) { return {{s * a[0], s * a[1], s * a[2]}}; }
-double dot(Vec a, Vec b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-Vec cross(Vec a, Vec b) {
-  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
-}
 Vec largest(Vec a, Vec b) {
   Vec r;
   for (int i = 0; i < 3; ++i) r[i] = std::max(std::fabs(a[i]), std::fabs(b[i]));
   return r;
 }
-Vec vec(const double (&p)[3]) { return {{p[0], p[1], p[2]}}; }
 Vec lerp(Vec a, Vec b, double t) { return (1 - t) * a + t * b; }
 double dual_norm(Vec m, bool maximum_norm) {
   return maximum_norm ? std::fabs(m[0]) + std::fabs(m[1]) + std::fabs(m[2])
@@ -45,10 +34,9 @@ constexpr int kPoints = 6;
 // The direction with the largest smallest cosine to all points: the centre of their smallest cap, found by
 // trying the bisector of every pair and the centre of every triple. Any direction is safe to use.
 Vec centre_of_cap(const Vec (&points)[kPoints]) {
-  Vec unit[kPoints];
+  Vec direction[kPoints];
   for (int i = 0; i < kPoints; ++i) {
-    const double n = std::sqrt(dot(points[i], points[i]));
-    unit[i] = n > 0 ? (1 / n) * points[i] : points[i];
+    direction[i] = unit(points[i]);
   }
   Vec best{};
   double best_cosine = -2;
@@ -57,14 +45,14 @@ Vec centre_of_cap(const Vec (&points)[kPoints]) {
     if (!(n > 0x1p-100)) return;
     m = (1 / n) * m;
     double cosine = 2;
-    for (const Vec& p : unit) cosine = std::min(cosine, dot(m, p));
+    for (const Vec& p : direction) cosine = std::min(cosine, dot(m, p));
     if (cosine > best_cosine) best_cosine = cosine, best = m;
   };
   for (int i = 0; i < kPoints; ++i)
     for (int j = i + 1; j < kPoints; ++j) {
-      consider(unit[i] + unit[j]);
+      consider(direction[i] + direction[j]);
       for (int k = j + 1; k < kPoints; ++k) {
-        const Vec n = cross(unit[j] - unit[i], unit[k] - unit[i]);
+        const Vec n = cross(direction[j] - direction[i], direction[k] - direction[i]);
         consider(n);
         consider(-1.0 * n);
       }

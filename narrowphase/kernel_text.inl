@@ -12,6 +12,8 @@ namespace {
 
 #include "narrowphase/gather.inl"
 
+#include "narrowphase/state.inl"
+
 #include "narrowphase/advance.inl"
 
 #include "narrowphase/cull.inl"
