@@ -1,11 +1,12 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, clang
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev"
 apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
 tests="catch2 libboost-dev libgmp-dev libfcl-dev pkg-config python3 python3-venv ca-certificates"
+peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
 clang="clang"
 
 wanted=
@@ -14,6 +15,7 @@ for group; do
     library) wanted="$wanted $library" ;;
     apps) wanted="$wanted $apps" ;;
     tests) wanted="$wanted $tests" ;;
+    peers) wanted="$wanted $peers" ;;
     clang) wanted="$wanted $clang" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
