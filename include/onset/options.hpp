@@ -11,11 +11,10 @@ enum class Norm {
   maximum
 };  // of the minimum separation; `maximum` is the paper's L-infinity (section 6)
 enum class BroadPhaseMethod { automatic, bvh, hash, brute };
-enum class NarrowPhaseMethod {
-  automatic,
-  inclusion
-};                                              // automatic: certificates first, inclusion as the last resort
-enum class Kernel { automatic, scalar, avx2 };  // automatic: ONSET_KERNEL in the environment, else the best
+// automatic: certificates first, the inclusion root finder as the last resort.
+enum class NarrowPhaseMethod { automatic, inclusion };
+// automatic: ONSET_KERNEL in the environment (scalar, avx2), else the best there is.
+enum class Kernel { automatic, scalar, avx2 };
 
 struct Options {
   // A contact is reported once a pair is closer than min_separation + tolerance (model length, > 0). Unset:
@@ -25,7 +24,10 @@ struct Options {
   std::optional<double> tolerance;
   double relative_tolerance = 1e-6;
 
-  double min_separation = 0;  // model length, >= 0: pairs must stay farther apart than this, in `norm`
+  // d: model length, >= 0, never reduced. A pair is reported if it ever comes as close as d (plus the thickness of its
+  // vertices, Mesh::set_thickness), measured in `norm`; it is never reported if it always stays farther away than
+  // d + tolerance, nor if it starts beyond d and never loses three quarters of that excess (resting contact).
+  double min_separation = 0;
   Norm norm = Norm::euclidean;
 
   // Checks (certificates of the advancement, boxes of the inclusion root finder) one pair may cost, >= 1. When they run out, the
