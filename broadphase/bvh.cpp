@@ -14,26 +14,18 @@ constexpr std::array<Primitive, 3> kKinds{Primitive::vertex, Primitive::edge, Pr
 
 class Bvh final : public BroadPhase {
  public:
-  explicit Bvh(const BroadPhaseInput& input)
-      : order_(make_vertex_order(input.motion, make_float_map(input.motion))) {
+  explicit Bvh(const BroadPhaseInput& input) {
+    const FloatMap map(input.motion);
+    order_ = make_vertex_order(input.motion, map);
     parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) trees_[k].emplace(input.mesh, kKinds[k], order_);
     });
-    refit(input);
+    fit(input, map);
   }
 
   const char* name() const override { return "bvh"; }
 
-  void refit(const BroadPhaseInput& input) override {
-    input_.emplace(input);
-    input_->kernel = resolve_kernel(input.kernel);
-    const FloatMap map = make_float_map(input.motion);
-    const Supports vertices =
-        make_supports(input, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());
-    parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, map, vertices);
-    });
-  }
+  void refit(const BroadPhaseInput& input) override { fit(input, FloatMap(input.motion)); }
 
   std::size_t blocks(PairKind kind) const override {
     const bool finite = input_->motion.status == Outcome::free;
@@ -64,6 +56,16 @@ class Bvh final : public BroadPhase {
                         motion_box(t.input, second_primitive(t.kind), b));
     }
   };
+
+  void fit(const BroadPhaseInput& input, const FloatMap& map) {
+    input_.emplace(input);
+    input_->kernel = resolve_kernel(input.kernel);
+    const Supports vertices =
+        make_supports(*input_, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());
+    parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, map, vertices);
+    });
+  }
 
   const BoxTree& tree(Primitive kind) const { return *trees_[std::size_t(kind)]; }
 

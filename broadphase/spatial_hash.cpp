@@ -122,7 +122,7 @@ class SpatialHash final : public BroadPhase {
     test_ = input.test;
     finite_ = input.motion.status == Outcome::free;
     if (!finite_) return;
-    const FloatMap map = make_float_map(input.motion);
+    const FloatMap map(input.motion);
     for (Primitive kind : {Primitive::vertex, Primitive::edge, Primitive::face})
       boxes_[std::size_t(kind)] = make_boxes(input, map, kind);
     for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})

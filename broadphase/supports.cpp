@@ -9,7 +9,6 @@ namespace onset {
 namespace {
 
 constexpr std::size_t kGrain = 2048;
-constexpr int kSamples = 512;
 constexpr std::size_t kAhead = 16;  // vertices are read in an order that the processor cannot foresee
 
 // Writes one end of a record, returns the axes on which the map rounded.
@@ -74,41 +73,6 @@ Supports make_supports(const BroadPhaseInput& input, const FloatMap& map, Primit
   });
   s.rounded_axes = rounded;
   return s;
-}
-
-namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
-FloatMap make_float_map(const Motion& motion) {
-  FloatMap map;
-  if (motion.num_vertices == 0) return map;
-  const int step = std::max(1, motion.num_vertices / kSamples);
-  double spread = 0, furthest = 0;
-  std::vector<double> sample;
-  for (std::size_t i = 0; i < 3; ++i) {
-    sample.clear();
-    for (int v = 0; v < motion.num_vertices; v += step)
-      sample.push_back(motion.t0(v)[i]), sample.push_back(motion.t1(v)[i]);
-    map.centre[i] = median(sample);
-    for (double& x : sample) x = std::fabs(x - map.centre[i]), furthest = std::max(furthest, x);
-    spread = std::max(spread, median(sample));
-  }
-  const double size = spread > 0 ? spread : furthest;
-  if (size == 0) return map;
-  map.set_scale(std::min(-std::ilogb(size), 1000));
-  // To a coarse multiple: coordinates that came from single precision then mostly stay exact, which spares
-  // the close calls.
-  const double grid = std::ldexp(1.0, std::min(std::ilogb(size) + 3, 1020));
-  for (std::size_t i = 0; i < 3; ++i)
-    if (std::fabs(map.centre[i]) < grid * 0x1p50) map.centre[i] = std::nearbyint(map.centre[i] / grid) * grid;
-  return map;
 }
 
 }  // namespace onset

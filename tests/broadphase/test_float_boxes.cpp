@@ -2,8 +2,8 @@
 #include <cmath>
 #include <set>
 
+#include "broadphase/float_map.hpp"
 #include "broadphase/space_curve.hpp"
-#include "broadphase/supports.hpp"
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
@@ -14,9 +14,9 @@ using namespace onset::tests;
 TEST_CASE("the map to single precision keeps the order of coordinates", "[property]") {
   for (const Soup& soup : hard_soups()) {
     const Motion motion = soup.motion();
-    const FloatMap map = make_float_map(motion);
+    const FloatMap map(motion);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::vector<double> x{-0x1p1020, 0x1p1020, 0.0, map.centre[axis]};
+      std::vector<double> x{-0x1p1020, 0x1p1020, 0.0};
       for (int v = 0; v < motion.num_vertices; ++v)
         for (double value : {motion.t0(v)[axis], motion.t1(v)[axis]})
           x.insert(x.end(), {value, std::nextafter(value, 1e308), std::nextafter(value, -1e308)});
@@ -27,6 +27,24 @@ TEST_CASE("the map to single precision keeps the order of coordinates", "[proper
         if (x[i - 1] < x[i] && a == b && map.inverts(a, x[i - 1], axis) && map.inverts(b, x[i], axis))
           FAIL_CHECK(soup.name << ": not one to one, " << x[i - 1] << " " << x[i]);
       }
+    }
+  }
+}
+
+TEST_CASE("the map tells the vertices of two small clusters apart, however far they are", "[property]") {
+  scenes::Random random(43);
+  for (double apart : {1e3, 1e7, 1e9, 1e12}) {
+    Soup soup = scattered("clusters", 1000, 0.1, 0.1, random);
+    for (auto* x : {&soup.x_t0, &soup.x_t1})
+      for (std::size_t i = x->size() / 2; i < x->size(); ++i) (*x)[i] += apart;
+    const Motion motion = soup.motion();
+    const FloatMap map(motion);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::set<double> exact;
+      std::set<float> mapped;
+      for (int v = 0; v < motion.num_vertices; ++v)
+        exact.insert(motion.t0(v)[axis]), mapped.insert(map(motion.t0(v)[axis], axis));
+      CHECK(mapped.size() > exact.size() * 9 / 10);
     }
   }
 }

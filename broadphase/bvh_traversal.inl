@@ -1,0 +1,200 @@
+// The traversal of two trees: part of the kernel text (bvh_kernel.inl).
+#pragma once
+
+#include "broadphase/bvh_overlap.inl"
+
+namespace onset {
+namespace ONSET_KERNEL {
+namespace {
+
+// Entries are written eight at a time, so there is room for eight more than may count.
+constexpr int kCapacity = 256;
+
+struct Pairs {
+  int a[kCapacity + kLanes], b[kCapacity + kLanes];
+  int count = 0;
+
+  bool full() const { return count > kCapacity - kLanes; }
+  void add(I8 as, I8 bs, int lanes) {
+    store(a + count, as), store(b + count, bs);
+    count += count_lanes(lanes);
+  }
+};
+
+// Two trees descended side by side. Every step is a loop over a list that writes the next list without
+// branches, eight entries at a time and as many of them counted as the test says; a list that is full is
+// emptied downward first, so memory is constant and the work depth first.
+template <bool kMotion, bool kSelf>
+class Traversal {
+ public:
+  explicit Traversal(const TraverseArguments& arguments) : t_(arguments) {}
+
+  void run() {
+    const int top = t_.tree.levels - 1;
+    for (std::size_t q = t_.first; q < t_.last; ++q) {
+      Pairs& start = blocks_[top];
+      start.a[start.count] = int(q), start.b[start.count++] = 0;
+      if (start.full()) empty_blocks(top);
+    }
+    for (int level = top; level >= 0; --level) empty_blocks(level);
+    flush();
+  }
+
+ private:
+  static constexpr int kRows = kRowsOf[kMotion];
+  static constexpr int kBoxStride = kBoxStrideOf[kMotion];
+  static constexpr int kOwn = kSelf ? 2 : 1, kOther = kSelf ? 2 : 3;  // vertices of a primitive
+
+  static const float* block_of(const TreeView& tree, int level, unsigned n) {
+    return tree.level[level] + std::size_t(n) * (kRows * kLanes);
+  }
+  static const float* box_of(const TreeView& tree, int level, unsigned n) {
+    return tree.box[level] + std::size_t(n) * kBoxStride;
+  }
+
+  struct Leaves {
+    const float* boxes;
+    const int *vertices, *ids;
+    explicit Leaves(const TreeView& tree) : boxes(tree.level[0]), vertices(tree.vertices), ids(tree.ids) {}
+    const float* block(unsigned n) const { return boxes + std::size_t(n) * (kRows * kLanes); }
+    const float* box(unsigned slot) const { return block(slot / kBlock) + slot % kBlock; }
+  };
+
+  // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
+  void empty_blocks(int level) {
+    if (level > 1)
+      descend(level);
+    else
+      split(level);
+    blocks_[level].count = 0;
+  }
+
+  // A block of the query, still whole, against the children of a node above.
+  void descend(int level) {
+    const Pairs& from = blocks_[level];
+    Pairs& to = blocks_[level - 1];
+    for (int e = 0; e < from.count; ++e) {
+      const int q = from.a[e], n = from.b[e];
+      int mask = mask_not_negative(overlap<kMotion>(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n)));
+      if (kSelf) {  // nothing before q itself
+        const int skip = (q >> 3 * (level - 2)) - n * kBlock;
+        mask &= 0xff << (skip > 0 ? skip : 0);
+      }
+      to.add(broadcast(q), compress(lane_numbers() + broadcast(n * kBlock), mask), mask);
+      if (to.full()) empty_blocks(level - 1);
+    }
+  }
+
+  // Which children of a meet the box of b.
+  void split(int level) {
+    const Pairs& from = blocks_[level];
+    for (int e = 0; e < from.count; ++e) {
+      const int a = from.a[e], b = from.b[e];
+      const int mask =
+          mask_not_negative(overlap<kMotion>(box_of(t_.tree, level, b), 1, block_of(t_.query, level, a)));
+      children_[level].add(compress(lane_numbers() + broadcast(a * kBlock), mask), broadcast(b), mask);
+      if (children_[level].full()) empty_children(level);
+    }
+    empty_children(level);
+  }
+
+  void empty_children(int level) {
+    if (level > 0)
+      pair_children(level);
+    else
+      emit();
+    children_[level].count = 0;
+  }
+
+  // Lanes of block b that may pair with child c of a block of the query: each unordered pair once, nothing
+  // with itself.
+  static int unpaired(unsigned c, unsigned b, unsigned itself) {
+    const unsigned skip = c % kBlock + itself;
+    return kSelf && c / kBlock == b ? 0xff << skip : 0xff;
+  }
+
+  void pair_children(int level) {
+    const Pairs& from = children_[level];
+    Pairs& to = blocks_[level - 1];
+    for (int e = 0; e < from.count; ++e) {
+      const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
+      const float* box = block_of(t_.query, level, c / kBlock) + c % kBlock;
+      const int mask =
+          mask_not_negative(overlap<kMotion>(box, kLanes, block_of(t_.tree, level, b))) & unpaired(c, b, 0);
+      to.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), mask), mask);
+      if (to.full()) empty_blocks(level - 1);
+    }
+  }
+
+  void emit() {
+    const Leaves query(t_.query), tree(t_.tree);  // copies: what is written cannot change them
+    const bool rounded = t_.rounded_axes != 0;
+    const Pairs& from = children_[0];
+    const int items = from.count;
+    IdPair* out = out_ + count_;
+    for (int e = 0; e < items; ++e) {
+      const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
+      const float* box = query.box(c);
+      const F8 depth = overlap<kMotion>(box, kLanes, tree.block(b));
+      const I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
+                                tree.vertices + std::size_t(b) * (kOther * kBlock));
+      int mask = mask_neither_negative(depth, shared) & unpaired(c, b, 1);
+      if (rounded && (mask & mask_zero(depth)) != 0) mask = settle(mask, c, b);
+      const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
+      if (kSelf)
+        store_interleaved(&out->a, min(same, others), max(same, others));
+      else
+        store_interleaved(&out->a, same, others);
+      out += count_lanes(mask);
+      if (out > out_ + (kBatchSize - kLanes)) {
+        count_ = std::size_t(out - out_);
+        flush();
+        out = out_;
+      }
+    }
+    count_ = std::size_t(out - out_);
+  }
+
+  // All bits of the lanes that share a vertex; each vertex of `own` is a row of 8 after the one before.
+  static I8 sharing(const int* own, const int* others) {
+    I8 shared = broadcast(own[0]) == load(others);
+    for (int j = 0; j < kOwn; ++j)
+      for (int k = j == 0; k < kOther; ++k)
+        shared = shared | (broadcast(own[j * kBlock]) == load(others + k * kBlock));
+    return shared;
+  }
+
+  // Takes out the lanes that touch in float but not in double.
+  int settle(int mask, unsigned c, unsigned b) const {
+    int open = touching<kMotion>(mask, t_.rounded_axes, block_of(t_.query, 0, c / kBlock) + c % kBlock,
+                                 block_of(t_.tree, 0, b));
+    for (; open != 0; open &= open - 1) {
+      const int lane = lowest_lane(open);
+      if (!t_.touches(t_.touches_context, t_.query.ids[c], t_.tree.ids[b * kBlock + lane]))
+        mask &= ~(1 << lane);
+    }
+    return mask;
+  }
+
+  void flush() {
+    if (count_ > 0) t_.consume(t_.consume_context, out_, count_);
+    count_ = 0;
+  }
+
+  const TraverseArguments& t_;
+  Pairs blocks_[kMaxLevels], children_[2];
+  std::size_t count_ = 0;
+  IdPair out_[kBatchSize];
+};
+
+}  // namespace
+
+void traverse(const TraverseArguments& arguments) {
+  if (arguments.self)
+    arguments.motion ? Traversal<true, true>(arguments).run() : Traversal<false, true>(arguments).run();
+  else
+    arguments.motion ? Traversal<true, false>(arguments).run() : Traversal<false, false>(arguments).run();
+}
+
+}  // namespace ONSET_KERNEL
+}  // namespace onset

@@ -1,0 +1,48 @@
+// Coordinates in single precision, in a way that cannot lose an overlap.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "base/motion.hpp"
+
+namespace onset {
+
+// A monotone map from a coordinate to float. Because it is monotone, disjoint floats mean disjoint doubles
+// and strictly overlapping floats mean overlapping doubles, whatever the rounding: no widening is needed, and
+// only equal floats leave the question open. Never gives -0.
+//
+// Linear, centred on the median and scaled by its spread, so that neither the scene's scale nor its offset
+// nor a vertex that has flown off costs the bulk its resolution; what is too far out saturates. Where that
+// would not tell the vertices apart (two clusters that are small against their distance), piecewise linear
+// between quantiles of the coordinates.
+class FloatMap {
+ public:
+  explicit FloatMap(const Motion& motion);
+
+  float operator()(double x, std::size_t axis) const {
+    if (!knots_[axis].empty()) return between_knots(x, axis);
+    return to_float((x - centre_[axis]) * scale_);
+  }
+  // Where it holds for all coordinates of a set, the map is one to one on them.
+  bool inverts(float y, double x, std::size_t axis) const {
+    return double(y) * inverse_ + centre_[axis] == x && knots_[axis].empty();
+  }
+
+ private:
+  static constexpr double kLargest = 0x1p120;
+  static float to_float(double y) {
+    return static_cast<float>(std::min(std::max(y, -kLargest), kLargest)) + 0.0f;
+  }
+
+  void fit_linear(const std::array<std::vector<double>, 3>& samples);
+  bool separates(const std::array<std::vector<double>, 3>& samples) const;
+  float between_knots(double x, std::size_t axis) const;
+
+  std::array<double, 4> centre_{};            // the last is for padding
+  double scale_ = 1, inverse_ = 1;            // powers of two
+  std::array<std::vector<double>, 4> knots_;  // ascending; empty: linear
+};
+
+}  // namespace onset
