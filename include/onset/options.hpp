@@ -6,10 +6,8 @@
 
 namespace onset {
 
-enum class Norm {
-  euclidean,
-  maximum
-};  // of the minimum separation; `maximum` is the paper's L-infinity (section 6)
+// Of the minimum separation; maximum is the L-infinity norm (paper, section 6).
+enum class Norm { euclidean, maximum };
 enum class BroadPhaseMethod { automatic, bvh, hash, brute };
 // automatic: certificates first, the inclusion root finder as the last resort.
 enum class NarrowPhaseMethod { automatic, inclusion };
@@ -24,15 +22,16 @@ struct Options {
   std::optional<double> tolerance;
   double relative_tolerance = 1e-6;
 
-  // d: model length, >= 0, never reduced. A pair is reported if it ever comes as close as d (plus the thickness of its
-  // vertices, Mesh::set_thickness), measured in `norm`; it is never reported if it always stays farther away than
-  // d + tolerance, nor if it starts beyond d and never loses three quarters of that excess (resting contact).
+  // d: model length, >= 0, never reduced. A pair is reported if it ever comes as close as d (plus the
+  // thickness of its vertices, Mesh::set_thickness), measured in `norm`; it is never reported if it always
+  // stays farther away than d + tolerance, nor if it starts beyond d and never loses three quarters of that
+  // excess (resting contact).
   double min_separation = 0;
   Norm norm = Norm::euclidean;
 
-  // Checks (certificates of the advancement, boxes of the inclusion root finder) one pair may cost, >= 1. When they run out, the
-  // time reached so far is returned: conservative, never late. Nearly all pairs need fewer than 30; the default keeps the
-  // worst query below 10 ms.
+  // Checks (certificates of the advancement, boxes of the inclusion root finder) one pair may cost, >= 1.
+  // When they run out, the time reached so far is returned: conservative, never late. Nearly all pairs need
+  // fewer than 30; the default keeps the worst query below 10 ms.
   std::int64_t max_checks = 10000;
 
   // 0: in the caller's task arena, as it is. n >= 1: at most n threads in an arena of the call.
