@@ -1,7 +1,9 @@
 // Queries as the kernels take them: positions of many pairs of one kind, four vertices each.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "narrowphase/kernel.hpp"
@@ -14,6 +16,7 @@ class KernelBatch {
   explicit KernelBatch(PairKind kind) : kind_(kind) {}
 
   void add(const scenes::Query& query, double separation) {
+    set_scale(query);
     const int first = int(ids_.size()) * 4;
     for (int i = 0; i < 4; ++i)
       for (const Point& p : {query.t0[i], query.t1[i]}) {
@@ -35,7 +38,8 @@ class KernelBatch {
     p.vertices = reinterpret_cast<const int(*)[4]>(ids_.data());
     p.separation = separation_.data();
     p.count = count();
-    p.tolerance = tolerance;
+    p.scale = scale_;
+    p.tolerance = p.reach = tolerance;
     p.horizon = 1;
     p.maximum_norm = maximum_norm;
     p.max_checks = max_checks;
@@ -43,7 +47,18 @@ class KernelBatch {
   }
 
  private:
+  // Brings the largest difference of coordinates near 1, as the pipeline does for a scene.
+  void set_scale(const scenes::Query& query) {
+    for (const auto* x : {&query.t0, &query.t1})
+      for (const Point& p : *x)
+        for (const Point& q : *x)
+          for (int a = 0; a < 3; ++a)
+            if (const double d = std::fabs(p[a] - q[a]); d > largest_ && d < INFINITY) largest_ = d;
+    if (largest_ > 0) scale_ = std::ldexp(1.0, std::min(1000, -std::ilogb(largest_)));
+  }
+
   PairKind kind_;
+  double largest_ = 0, scale_ = 1;
   std::vector<double> x_;
   std::vector<std::array<int, 4>> ids_;
   std::vector<double> separation_;

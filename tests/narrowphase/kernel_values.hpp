@@ -23,7 +23,7 @@ struct KernelValues {
   double distance;    // upper bound of the distance at t, Euclidean
   // Single precision: the directions rounded to float, the coefficients on [0, 1] with wb at 1, and their
   // bound.
-  float wf[3], wbf[3], bf[3][4], f_bound;
+  float wf[3], wbf[3], bf[5][4], f_bound;
 };
 
 // Of pair `row`. Two copies of the same text: as the library compiles it, and with multiplications and

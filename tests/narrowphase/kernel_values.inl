@@ -45,26 +45,28 @@ void double_values(const KernelPairs& pairs, int row, const tests::ValuesWanted&
   out.f_error = first(s.f_error), out.n_largest = first(s.n_largest);
 }
 
+// As in cull_eight and separates: the coefficients on [0, 1], then on [0, 1/2].
 template <int K>
 void float_values(const KernelPairs& pairs, int row, const tests::ValuesWanted& in,
                   tests::KernelValues& out) {
   using V = F8;
   const int rows[8] = {row, row, row, row, row, row, row, row};
-  V c[2][K][3], d, R[3], w[3], wb[3];
-  float_corners(pairs, rows, c, d);
+  FloatPairs<K> s;
+  float_corners(pairs, rows, s);
+  V w[3], wb[3], middle[3];
   for (int a = 0; a < 3; ++a) {
-    R[a] = abs(c[0][0][a]);
-    for (int end = 0; end < 2; ++end)
-      for (int k = 0; k < K; ++k) R[a] = max(abs(c[end][k][a]), R[a]);
     w[a] = to_float(D4::all(in.w[a]), D4::all(in.w[a]));
     wb[a] = to_float(D4::all(in.wb[a]), D4::all(in.wb[a]));
     out.wf[a] = first(w[a]), out.wbf[a] = first(wb[a]);
   }
-  // As in cull_eight and separates.
-  out.f_bound = first(V::all(5.5f * 0x1p-24f) * sqrt(dot(R, R)) * V::all(1 + 0x1p-20f));
+  out.f_bound = first(s.error);
+  const V half = V::all(0.5f);
   for (int k = 0; k < K; ++k) {
-    out.bf[0][k] = first(dot(w, c[0][k])), out.bf[2][k] = first(dot(wb, c[1][k]));
-    out.bf[1][k] = first(V::all(0.5f) * (dot(w, c[1][k]) + dot(wb, c[0][k])));
+    for (int a = 0; a < 3; ++a) middle[a] = half * (s.c[0][k][a] + s.c[1][k][a]);
+    out.bf[0][k] = first(dot(w, s.c[0][k])), out.bf[2][k] = first(dot(wb, s.c[1][k]));
+    out.bf[1][k] = first(half * (dot(w, s.c[1][k]) + dot(wb, s.c[0][k])));
+    out.bf[3][k] = first(half * (dot(w, middle) + dot(wb, s.c[0][k])));
+    out.bf[4][k] = first(dot(wb, middle));
   }
 }
 

@@ -52,9 +52,13 @@ oracle::Known known_within(const Query& query, double d, Norm norm) {
 
 std::string broken_promise(const Query& query, const Options& options, const QueryResult& result) {
   const double d = options.min_separation;
-  return oracle::broken_promise(
-      query, options, result,
-      d > 0 ? known_within(query, d, options.norm) : oracle::known(oracle::exact_ccd(query)));
+  const oracle::Known known =
+      d > 0 ? known_within(query, d, options.norm) : oracle::known(oracle::exact_ccd(query));
+  std::string broken = oracle::broken_promise(query, options, result, known);
+  if (broken.empty()) broken = oracle::wrong_report(query, options, result);
+  if (broken.empty() && oracle::silent_zero(query, options, result))
+    broken = "a step of zero from a start that is apart";
+  return broken;
 }
 
 }  // namespace onset::tests

@@ -27,7 +27,7 @@ std::string contradiction(const Query& query, const Options& o, const QueryResul
   if (a.outcome != Outcome::contact || b.outcome != Outcome::contact) return {};
   const double early = std::min(a.toi, b.toi), late = std::max(a.toi, b.toi);
   if (early == late) return {};
-  const double tolerance = std::max(a.tolerance, b.tolerance) * (1 + 0x1p-40) + floor;
+  const double tolerance = std::max(a.tolerance, b.tolerance) * (1 + 0x1p-40) + floor + 0x1p-1070;
   if (oracle::compare_distance(query, early, (o.min_separation + tolerance) * (1 + 0x1p-50), o.norm) > 0)
     return "the earlier time is too early";
   return {};
