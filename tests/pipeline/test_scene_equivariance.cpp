@@ -1,0 +1,110 @@
+// Whole scenes in other units, at another place, with axes exchanged or mirrored: the same active set and
+// step, bit for bit.
+#include "tests/catch.hpp"
+#include "tests/narrowphase/fuzz.hpp"
+#include "tests/narrowphase/kernels.hpp"
+#include "tests/narrowphase/symmetries.hpp"
+#include "tests/pipeline/scene_set.hpp"
+
+using namespace onset;
+using namespace onset::tests;
+using scenes::Random;
+using scenes::Scene;
+
+namespace {
+
+Scene permuted(const Scene& scene, const SignedPermutation& p) {
+  Scene other = scene;
+  for (int i = 0; i < 3; ++i) {
+    other.x_t0.col(i) = p.signs[i] * scene.x_t0.col(p.axes[i]);
+    other.x_t1.col(i) = p.signs[i] * scene.x_t1.col(p.axes[i]);
+  }
+  return other;
+}
+
+Scene scaled(Scene scene, double s) {
+  scene.x_t0 *= s, scene.x_t1 *= s;
+  return scene;
+}
+
+std::vector<Options> ways_to_ask() {
+  std::vector<Options> all(4);
+  all[1].min_separation = 0.01;
+  all[2].min_separation = 0.003, all[2].norm = Norm::maximum, all[2].broad_phase = BroadPhaseMethod::brute;
+  all[2].max_checks = 300;
+  all[3].tolerance = 1e-3, all[3].max_checks = 3;
+  return all;
+}
+
+// The other scene is asked in its own units.
+void expect_same(const NamedScene& named, const Scene& other, const Options& o, double unit = 1) {
+  const Mesh mesh = named.mesh();
+  Options there = o;
+  there.min_separation *= unit;
+  if (o.tolerance) there.tolerance = *o.tolerance * unit;
+  for (Kernel kernel : kernels()) {
+    Options first = o;
+    first.kernel = there.kernel = kernel;
+    const auto a = construct_active_set(mesh, named.scene.x_t0, named.scene.x_t1, first);
+    const auto b = construct_active_set(mesh, other.x_t0, other.x_t1, there);
+    CAPTURE(named.name, kernel_name(kernel), o.min_separation, unit, a.size(), b.size());
+    CHECK(same_bytes(a, b));
+    CHECK(same_bytes(compute_collision_free_stepsize(mesh, named.scene.x_t0, named.scene.x_t1, first),
+                     compute_collision_free_stepsize(mesh, other.x_t0, other.x_t1, there)));
+    CHECK(a.stats.tolerance * unit == b.stats.tolerance);
+    CHECK(a.stats.extent * unit == b.stats.extent);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("scenes with permuted and mirrored axes give the same bits", "[property][equivariance]") {
+  const auto permutations = signed_permutations();
+  Random random(101);
+  for (const NamedScene& named : some_scenes())
+    for (const Options& o : ways_to_ask())
+      for (int i = 0; i < fuzz(5); ++i)
+        expect_same(named, permuted(named.scene, permutations[std::size_t(scenes::integer(random, 1, 47))]),
+                    o);
+}
+
+TEST_CASE("scenes scaled by powers of two give the same bits", "[property][equivariance]") {
+  for (const NamedScene& named : some_scenes())
+    for (const Options& o : ways_to_ask())
+      for (int exponent : {-300, -37, 1, 300})
+        expect_same(named, scaled(named.scene, std::ldexp(1.0, exponent)), o, std::ldexp(1.0, exponent));
+}
+
+TEST_CASE("scenes translated exactly give the same bits", "[property][equivariance]") {
+  Random random(102);
+  for (NamedScene named : some_scenes()) {
+    named.scene = on_grid(named.scene);
+    for (const Options& o : ways_to_ask())
+      for (int bits : {2, 20, 31}) {
+        const Point p = scenes::grid_point(random, bits);
+        expect_same(named, translated(named.scene, {p[0], p[1], p[2]}), o);
+      }
+  }
+}
+
+// The separation is exactly the gap, or one unit in the last place less or more: whether the boxes overlap
+// must not depend on where the scene is.
+TEST_CASE("translation does not decide whether a pair is near enough to be tested",
+          "[property][equivariance]") {
+  Random random(103);
+  const double gap = 0x1.2345p-3;
+  NamedScene named{"falling triangle", {}};
+  named.scene = scenes::translated(scenes::triangle_soup(1, 0, 0, random), {0, 0, 0});
+  named.scene.x_t0.resize(4, 3), named.scene.faces.resize(1, 3);
+  named.scene.x_t0 << 0, 0, 1, -1, -1, 0, 1, -1, 0, 0, 1, 0;
+  named.scene.faces << 1, 2, 3;
+  named.scene.x_t1 = named.scene.x_t0;
+  named.scene.x_t1(0, 2) = gap;
+  for (double d : {std::nextafter(gap, 0), gap, std::nextafter(gap, 1), gap * (1 - 0x1p-40), gap * 0.75})
+    for (int bits : {0, 10, 25, 31}) {
+      Options o;
+      o.min_separation = d;
+      const Point p = scenes::grid_point(random, bits);
+      expect_same(named, translated(named.scene, {p[0], p[1], p[2]}), o);
+    }
+}
