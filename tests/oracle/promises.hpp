@@ -23,7 +23,7 @@ std::string broken_promise(const scenes::Query& query, const Options& options, c
 // A step of zero although the pair starts apart by more than rounding can hide.
 bool silent_zero(const scenes::Query& query, const Options& options, const QueryResult& result);
 
-// Empty, or what `result` says about itself and is not so: outcome, tolerance, checks.
+// Empty, or what `result` says about itself and is not so: outcome, tolerance (up to rounding).
 std::string wrong_report(const scenes::Query& query, const Options& options, const QueryResult& result);
 
 // As one line: options and result.

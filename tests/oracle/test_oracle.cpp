@@ -121,6 +121,48 @@ TEST_CASE("motion inside one plane", "[unit][oracle]") {
   check_free(on_line(0, 0, 1, 1, 0.5));
 }
 
+TEST_CASE("primitives without a normal at the moment of contact only", "[unit][oracle]") {
+  // All on the x axis at t = 1/2: edges end to end, and a vertex at the ends of the segment that a face
+  // becomes.
+  const auto collapsing = [](PairKind kind, double q, double b) {
+    Query query;
+    query.kind = kind;
+    query.t0 = scenes::placed(kind, {{q, 0, -3}, {1, 0, -1}, {b, -1, 0}}, {});
+    query.t1 = scenes::placed(kind, {{q, 0, 3}, {1, 0, 1}, {b, 1, 0}}, {});
+    return query;
+  };
+  const double above_1 = std::nextafter(1, 2), above_2 = std::nextafter(2, 3), below_0 = -0x1p-1074;
+  check_time(collapsing(kEdgeEdge, 1, -1), 0.5, 0.5);
+  check_free(collapsing(kEdgeEdge, above_1, -1));
+  check_time(collapsing(kVertexFace, 2, 2), 0.5, 0.5);
+  check_time(collapsing(kVertexFace, 0, 2), 0.5, 0.5);
+  check_free(collapsing(kVertexFace, above_2, 2));
+  check_free(collapsing(kVertexFace, below_0, 2));
+}
+
+TEST_CASE("primitives without a normal that touch at their ends at the start", "[unit][oracle]") {
+  const auto end_to_end = [](double b0) {
+    return Query{kEdgeEdge,
+                 {{{0, 0, 0}, {1, 0, 0}, {b0, 0, 0}, {2, 0, 0}}},
+                 {{{0, 0, 0}, {1, 0, 0}, {5, 5, 5}, {6, 5, 5}}}};
+  };
+  check_time(end_to_end(1), 0, 0);
+  check_free(end_to_end(std::nextafter(1, 2)));
+  const auto on_segment = [](double x) {
+    return Query{kVertexFace,
+                 {{{x, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},
+                 {{{x, 5, 5}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}};
+  };
+  check_time(on_segment(2), 0, 0);
+  check_time(on_segment(0), 0, 0);
+  check_free(on_segment(std::nextafter(2, 3)));
+  const auto on_point = [](double x) {
+    return Query{kVertexFace, {{{x, 0, 0}, {}, {}, {}}}, {{{5, 0, 1}, {}, {}, {}}}};
+  };
+  check_time(on_point(0), 0, 0);
+  check_free(on_point(0x1p-1074));
+}
+
 TEST_CASE("an irrational time of impact lies strictly between adjacent doubles", "[unit][oracle]") {
   // f = 2 t^2 - 1: a face that tilts about y while the vertex rises: contact at sqrt(1/2).
   const Query query{kVertexFace,

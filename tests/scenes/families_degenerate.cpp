@@ -106,6 +106,22 @@ static Query parallel_meeting(PairKind kind, Random& random) {
   return query;
 }
 
+// Edges that are parallel, or a face that is a segment, at the moment of contact only, t = 1/2: all points on
+// one line then.
+static Query collapsing(PairKind kind, Random& random) {
+  Query query;
+  query.kind = kind;
+  const Point line = times(4, grid_point(random, 18));
+  const Point da = grid_point(random, 18), db = grid_point(random, 18), dq = grid_point(random, 18);
+  const int along = integer(random, -2, 2), at = integer(random, -5, 10);
+  for (double s : {-1.0, 1.0}) {
+    const Point a = plus(line, times(s, da)), b = plus(times(along, line), times(s, db));
+    const Point q = plus(times(at / 4.0, line), times(s, dq));
+    (s > 0 ? query.t1 : query.t0) = placed(kind, {q, a, b}, grid_point(random, 30));
+  }
+  return query;
+}
+
 // All points on one line for all t.
 static Query collinear(PairKind kind, Random& random) {
   Query query;
@@ -156,6 +172,7 @@ std::vector<Family> degenerate_families() {
           {"zero_length", zero_length},
           {"parallel", parallel},
           {"parallel_meeting", parallel_meeting},
+          {"collapsing", collapsing},
           {"collinear", collinear},
           {"coplanar", coplanar},
           {"coplanar_turning", coplanar_turning},

@@ -57,7 +57,7 @@ static Query half_subnormal(PairKind kind, Random& random) {
 // As large as is allowed.
 static Query largest(PairKind kind, Random& random) {
   const Query query = mixed_query(kind, random);
-  return scaled(query, 0x1p1017);  // the aimed coordinates stay below 8
+  return scaled(query, 0x1p1016);  // mixed coordinates stay below 16
 }
 
 std::vector<Family> scale_families() {
