@@ -7,11 +7,11 @@
 
 namespace onset {
 
-// A float box is given by its supports: how far it reaches along -x -y -z +x +y +z, at t = 0 and then at t
-// = 1. The union of boxes is the maximum of their supports; along an axis, two boxes are apart where a
-// support and the opposite support of the other have a negative sum. A swept box has 6 supports, a motion
-// box 12. Boxes are stored in blocks of eight, one row of eight floats a support; rows of unused lanes hold
-// kNowhere.
+// A float box is given by its supports: how far it reaches along -x -y -z +x +y +z, at the start of the
+// motion and then at its end. The union of boxes is the maximum of their supports; along an axis, two boxes
+// are apart where a support and the opposite support of the other have a negative sum. A swept box has 6
+// supports, a motion box 12. Boxes are stored in blocks of eight, one row of eight floats a support; unused
+// lanes hold kNowhere.
 inline constexpr int kBlock = 8;
 inline constexpr float kNowhere = -0x1p126f;
 inline constexpr int kMaxLevels = 12;

@@ -106,12 +106,9 @@ class Traversal {
     children_[level].count = 0;
   }
 
-  // Lanes of block b that may pair with child c of a block of the query: each unordered pair once, nothing
-  // with itself.
-  static int unpaired(unsigned c, unsigned b, unsigned itself) {
-    const unsigned skip = c % kBlock + itself;
-    return kSelf && c / kBlock == b ? 0xff << skip : 0xff;
-  }
+  // Lanes of block b that may pair with child c of a block of the query: each unordered pair once. (A
+  // primitive shares its vertices with itself.)
+  static int unpaired(unsigned c, unsigned b) { return kSelf && c / kBlock == b ? 0xff << c % kBlock : 0xff; }
 
   void pair_children(int level) {
     const Pairs& from = children_[level];
@@ -120,7 +117,7 @@ class Traversal {
       const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
       const float* box = block_of(t_.query, level, c / kBlock) + c % kBlock;
       const int mask =
-          mask_not_negative(overlap<kMotion>(box, kLanes, block_of(t_.tree, level, b))) & unpaired(c, b, 0);
+          mask_not_negative(overlap<kMotion>(box, kLanes, block_of(t_.tree, level, b))) & unpaired(c, b);
       to.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), mask), mask);
       if (to.full()) empty_blocks(level - 1);
     }
@@ -138,7 +135,7 @@ class Traversal {
       const F8 depth = overlap<kMotion>(box, kLanes, tree.block(b));
       const I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
                                 tree.vertices + std::size_t(b) * (kOther * kBlock));
-      int mask = mask_neither_negative(depth, shared) & unpaired(c, b, 1);
+      int mask = mask_neither_negative(depth, shared) & unpaired(c, b);
       if (rounded && (mask & mask_zero(depth)) != 0) mask = settle(mask, c, b);
       const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
       if (kSelf)
