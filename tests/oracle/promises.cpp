@@ -40,21 +40,24 @@ static std::string wrong_outcome(const scenes::Query& query, const Options& opti
   return {};
 }
 
+bool tolerance_understated(const scenes::Query& query, const Options& options, const QueryResult& result) {
+  const double d = options.min_separation, rounding = 0x1p-42 * (extent(query) + d) + 0x1p-1070;
+  return !(result.tolerance >= 0) ||
+         compare_distance(query, result.toi, d + result.tolerance + rounding, options.norm) > 0;
+}
+
 std::string wrong_report(const scenes::Query& query, const Options& options, const QueryResult& result) {
   const std::string wrong = wrong_outcome(query, options, result);
   if (!wrong.empty()) return wrong;
 
   if (!result.collides()) return {};
 
-  const double d = options.min_separation, size = extent(query);
-  if (!(result.tolerance >= 0)) return "tolerance is not a number >= 0";
-  const double rounding = 0x1p-42 * (size + d) + 0x1p-1070;
-  if (compare_distance(query, result.toi, d + result.tolerance + rounding, options.norm) > 0)
+  if (result.outcome == Outcome::budget) return {};
+  if (tolerance_understated(query, options, result))
     return "farther apart at toi than the reported tolerance";
+  const double size = extent(query), rounding = 0x1p-42 * (size + options.min_separation) + 0x1p-1070;
   const double asked = options.tolerance ? *options.tolerance : options.relative_tolerance * size;
-  if (result.outcome != Outcome::budget && result.tolerance > asked + rounding)
-    return "reported beyond the tolerance";
-  return {};
+  return result.tolerance > asked + rounding ? "reported beyond the tolerance" : std::string();
 }
 
 std::string to_text(const Options& options, const QueryResult& result) {

@@ -26,6 +26,10 @@ bool silent_zero(const scenes::Query& query, const Options& options, const Query
 // Empty, or what `result` says about itself and is not so: outcome, tolerance (up to rounding).
 std::string wrong_report(const scenes::Query& query, const Options& options, const QueryResult& result);
 
+// Whether the pair is farther apart at toi than result.tolerance beyond the separation, by more than
+// rounding.
+bool tolerance_understated(const scenes::Query& query, const Options& options, const QueryResult& result);
+
 // As one line: options and result.
 std::string to_text(const Options& options, const QueryResult& result);
 
