@@ -19,23 +19,35 @@ void check_shape(const char* name, int num_vertices, const Positions& x) {
                                 std::to_string(num_vertices) + " vertices and needs one row of 3 for each");
 }
 
+// x - y without rounding: the rounded difference and what it leaves (Knuth's two-sum; no overflow within kMaxCoordinate).
+struct Difference {
+  double rounded, rest;
+};
+Difference exact_difference(double x, double y) {
+  const double d = x - y, back = d - x;
+  return {d, (x - (d - back)) - (y + back)};
+}
+
 // -1, 0, 1 as column i of the caller's positions comes before, with or after column j. The order depends only
-// on differences of positions along an axis and not on their sign, so it commutes with exchanging axes,
-// flipping them, exact translation and power-of-two scaling. Columns that tie are equal up to sign and may be
-// exchanged freely.
+// on exact differences of positions along an axis and not on their sign, so it commutes with exchanging axes,
+// flipping them, exact translation and power-of-two scaling. Columns that tie are equal up to sign and an offset
+// and may be exchanged freely; differences that are equal only when rounded are no tie.
 int compare_columns(const Motion& m, int i, int j) {
   double sign[2] = {0, 0};
   const int column[2] = {i, j};
   for (int pass = 0; pass < 2; ++pass) {  // magnitudes first, then signs relative to the first non-zero one
     for (int v = 0; v < m.num_vertices; ++v)
       for (const double* x : {m.t0(v), m.t1(v)}) {
-        double d[2];
+        Difference d[2];
         for (int k = 0; k < 2; ++k) {
-          d[k] = x[column[k]] - m.t0(0)[column[k]];
-          if (sign[k] == 0 && d[k] != 0) sign[k] = d[k] > 0 ? 1 : -1;
-          d[k] = pass == 0 ? std::fabs(d[k]) : d[k] * sign[k];
+          d[k] = exact_difference(x[column[k]], m.t0(0)[column[k]]);
+          const double here = d[k].rounded > 0 ? 1 : -1;  // where it is 0, so is the rest
+          if (sign[k] == 0 && d[k].rounded != 0) sign[k] = here;
+          const double factor = pass == 0 ? here : sign[k];
+          d[k] = {d[k].rounded * factor, d[k].rest * factor};
         }
-        if (d[0] != d[1]) return d[0] > d[1] ? -1 : 1;
+        if (d[0].rounded != d[1].rounded) return d[0].rounded > d[1].rounded ? -1 : 1;
+        if (d[0].rest != d[1].rest) return d[0].rest > d[1].rest ? -1 : 1;
       }
   }
   return 0;

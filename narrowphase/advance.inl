@@ -9,16 +9,20 @@
 // What is seen at time t: the best direction and an upper bound of the distance.
 template <class V, int K>
 inline void look(const State<V, K>& s, V t, bool maximum_norm, V (&w)[3], V& dist) {
-  V c[K][3], e1[3], e2[3], f[3];
+  V c[K][3], e1[3], e2[3], f[3], shortest;
   for (int k = 0; k < K; ++k)
     for (int a = 0; a < 3; ++a) c[k][a] = lerp(s.c[0][k][a], s.c[1][k][a], t);
-  const Nearest<V> nearest = nearest_on_boundary(c);
   spanning_edges(c, e1, e2);
-  best_direction(c, nearest, e1, e2, w);
-  interior_point(c, e1, e2, f);
+  if (maximum_norm) {
+    shortest = look_in_maximum_norm(c, e1, e2, w);
+  } else {
+    const Nearest<V> nearest = nearest_on_boundary(c);
+    best_direction(c, nearest, e1, e2, w);
+    interior_point(c, e1, e2, f);
+    shortest = sqrt(min(dot(f, f), nearest.f2));
+  }
   // A witness F(t, u, v) evaluated from the corners errs by at most 10u R per axis (lerp 1 + 3, two convex sums 3 each), so
   // its length by 10u rho; 16u covers the square root and sums.
-  const V shortest = min(measure(f, dot(f, f), maximum_norm), measure(nearest.f, nearest.f2, maximum_norm));
   dist = shortest * V::all(1 + 0x1p-50) + V::all(16 * kU) * s.rho;
 }
 
@@ -238,15 +242,17 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
 }
 
 template <int K>
-inline void look_at(const KernelPairs& pairs, int row, double t, double (&w)[3]) {
+inline double look_at(const KernelPairs& pairs, int row, double t, double (&w)[3]) {
   const int rows[4] = {row, row, row, row};
   State<D4, K> s;
   set_up(pairs, rows, s);
   D4 direction[3], dist;
   look(s, D4::all(t), pairs.maximum_norm, direction, dist);
+  double lanes[4];
   for (int a = 0; a < 3; ++a) {
-    double lanes[4];
     direction[a].store(lanes);
     w[a] = lanes[0];
   }
+  dist.store(lanes);
+  return lanes[0];
 }

@@ -59,9 +59,9 @@ struct KernelTable {
                               KernelResult*);
   void (*advance_edge_edge)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
                             KernelResult*);
-  // The direction that separates pair `row` best at time t.
-  void (*look_vertex_face)(const KernelPairs&, int row, double t, double (&w)[3]);
-  void (*look_edge_edge)(const KernelPairs&, int row, double t, double (&w)[3]);
+  // The direction that separates pair `row` best at time t; returns a scaled upper bound of the distance then.
+  double (*look_vertex_face)(const KernelPairs&, int row, double t, double (&w)[3]);
+  double (*look_edge_edge)(const KernelPairs&, int row, double t, double (&w)[3]);
 };
 
 const KernelTable& scalar_kernels();

@@ -8,6 +8,8 @@ namespace {
 
 #include "narrowphase/direction.inl"
 
+#include "narrowphase/maximum_norm.inl"
+
 #include "narrowphase/certificates.inl"
 
 #include "narrowphase/gather.inl"
@@ -28,8 +30,8 @@ void advance_edge_edge(const KernelPairs& pairs, const int* subset, int count, c
                        KernelResult* results) {
   advance_all<4>(pairs, subset, count, resume, results);
 }
-void look_vertex_face(const KernelPairs& pairs, int row, double t, double (&w)[3]) { look_at<3>(pairs, row, t, w); }
-void look_edge_edge(const KernelPairs& pairs, int row, double t, double (&w)[3]) { look_at<4>(pairs, row, t, w); }
+double look_vertex_face(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<3>(pairs, row, t, w); }
+double look_edge_edge(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<4>(pairs, row, t, w); }
 
 }  // namespace
 }  // namespace ONSET_KERNEL

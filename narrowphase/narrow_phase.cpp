@@ -16,6 +16,10 @@ namespace {
 // pairs that pass within the tolerance without touching are then told apart.
 constexpr double kSharpness = 0.0625;
 
+// With fewer checks than this a pair may be reported far from contact, and a horizon could hide it: then it
+// is not used.
+constexpr std::int64_t kChecksForHorizon = 1000;
+
 const KernelTable& kernels_for(Kernel requested) {
 #ifdef ONSET_HAVE_AVX2
   if (resolve_kernel(requested) == Kernel::avx2) return avx2_kernels();
@@ -61,6 +65,8 @@ NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
       kernels_(&kernels_for(input.options.kernel)),
       scale_(power_of_two_near_one_over(input.extent)) {}
 
+bool NarrowPhase::uses_horizon() const { return in_.options.max_checks >= kChecksForHorizon; }
+
 void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
                           NarrowPhaseScratch& scratch) const {
   scratch.vertices.resize(4 * count);
@@ -94,7 +100,7 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           in_.tolerance,
           in_.keep,
           in_.rounding,
-          horizon,
+          uses_horizon() ? horizon : 1,
           in_.options.norm == Norm::maximum,
           inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
 }
@@ -134,6 +140,12 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   }
 }
 
+double NarrowPhase::distance_at(const Case& c, double t) const {
+  double w[3];
+  return (c.kind == PairKind::vertex_face ? kernels_->look_vertex_face : kernels_->look_edge_edge)(
+      c.input, c.row, t, w);
+}
+
 Corners NarrowPhase::corners_of(const Case& c) const {
   return make_corners(c.kind, in_.motion, c.input.vertices[c.row]);
 }
@@ -153,6 +165,11 @@ KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelR
       return r;
     }
     if (t == r.t && patient) return r;
+    if (r.checks >= c.input.max_checks) {
+      r.t = t;
+      r.verdict = Verdict::budget;
+      return r;
+    }
     patient = t == r.t;
     const KernelResume resume{t, r.separation, r.delta, r.checks, patient ? kPatience : 0};
     const auto advance =
@@ -172,11 +189,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
   stats.checks += found.checks - checked.checks;
   std::int64_t checks = found.checks;
   if (found.verdict == Verdict::free) return;
-  // A cube of half-width d can be clear of the pair where no Euclidean direction shows it: the root finder
-  // decides.
-  const bool unclear = found.verdict == Verdict::initial && c.input.maximum_norm && d > 0;
-  if (unclear) found.t = 0, found.delta = in_.tolerance / found.unit;
-  if (unclear || found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only)) {
+  if (found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only)) {
     const InclusionResult searched =
         find_first_inclusion({corners_of(c), found.t, d, found.delta, in_.options.norm == Norm::maximum,
                               in_.options.max_checks - checks});
@@ -186,11 +199,12 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
     if (searched.end == InclusionResult::End::free) return;
     found.t = searched.t;
     found.distance = searched.distance;
-    if (searched.t > 0 || !unclear)
-      found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
+    found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
   }
   if (in_.rounding > 0) note_kept(c, found, stats);
   if (found.verdict == Verdict::initial) return finish_initial(c, corners_of(c), found, stats, out);
+  // These moved on after their last look.
+  if (found.verdict == Verdict::budget || found.checks == 1) found.distance = distance_at(c, found.t);
   if (found.verdict == Verdict::budget) r.outcome = Outcome::budget;
   r.toi = r.step_limit = found.t;
   r.tolerance = std::max(0.0, (found.distance - d) * found.unit);

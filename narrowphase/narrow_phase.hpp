@@ -62,6 +62,7 @@ class NarrowPhase {
   // Appends the pairs of the batch that the culls cannot certify as free.
   void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
             std::vector<IdPair>& out) const;
+  bool uses_horizon() const;
   const char* kernel_name() const { return kernels_->name; }
 
  private:
@@ -78,6 +79,7 @@ class NarrowPhase {
   void note_kept(const Case& c, const KernelResult& found, NarrowPhaseStats& stats) const;
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   Corners corners_of(const Case& c) const;
+  double distance_at(const Case& c, double t) const;  // scaled upper bound
   KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
   void finish(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
               std::vector<PairResult>& out) const;

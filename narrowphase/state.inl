@@ -22,10 +22,6 @@ template <class V>
 inline V norm_factor(const V (&w)[3], bool maximum_norm) {  // dual norm of a direction of Euclidean length <= 1 + 4u
   return maximum_norm ? (abs(w[0]) + abs(w[1])) + abs(w[2]) : one<V>();
 }
-template <class V>
-inline V measure(const V (&f)[3], V f2, bool maximum_norm) {
-  return maximum_norm ? max(abs(f[0]), max(abs(f[1]), abs(f[2]))) : sqrt(f2);
-}
 template <class V, int K>
 inline V separation_wanted(const State<V, K>& s) {
   return (s.d + V::all(0.5) * s.delta) * V::all(1 + 0x1p-49);

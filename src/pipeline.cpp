@@ -11,8 +11,6 @@
 namespace onset {
 namespace {
 
-// Below this many checks a pair may be reported far from contact, and a horizon could hide it.
-constexpr std::int64_t kChecksForHorizon = 1000;
 constexpr std::size_t kSampledBlocks = 64;  // one in so many
 
 // Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that
@@ -21,7 +19,7 @@ constexpr std::size_t kSampledBlocks = 64;  // one in so many
 // then: the result is the minimum of the active set.
 double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options,
                          const Stats& stats) {
-  if (options.max_checks < kChecksForHorizon) return 1;
+  if (!narrow.uses_horizon()) return 1;
   const PassResult sample = run_pass(*scene.broad, narrow, Keep::limiting, 1, kSampledBlocks);
   if (sample.found.empty()) return 1;
   const double horizon = sample.found[0].result.step_limit;
@@ -88,6 +86,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
       set.b.push_back(pair.b);
       set.vertices.push_back(pair.vertices);
       set.toi.push_back(f.result.toi);
+      set.step_limit.push_back(f.result.step_limit);
       set.status.push_back(f.result.outcome);
     }
     if (set.size() > 0) set.outcome = Outcome::contact;

@@ -35,7 +35,7 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
   QueryResult r;
   if (motion.status != Outcome::free) {
     r.outcome = motion.status;
-    r.toi = 0;
+    r.toi = r.step_limit = 0;
     return r;
   }
   const MeshData& mesh = kMeshes[kind == PairKind::edge_edge];
@@ -55,6 +55,7 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
   if (found.empty()) return r;
   r.outcome = found[0].outcome;
   r.toi = found[0].toi;
+  r.step_limit = found[0].step_limit;
   r.tolerance = found[0].tolerance;
   return r;
 }

@@ -17,8 +17,8 @@ enum class Outcome : std::uint8_t {
   free,                // certified: farther apart than the separation for the whole step
   contact,             // comes within separation + tolerance at toi > 0
   initial_contact,     // touching, or closer than the separation, at t = 0 and pressing: toi 0
-  initial_separating,  // the same at t = 0, but the motion never brings the pair closer than it starts: does
-                       // not limit a step
+  initial_separating,  // the same at t = 0, but the motion parts the pair: toi 0, and a step may go on to
+                       // step_limit
   budget,              // max_checks spent: free until toi, undecided after
   non_finite,          // a position is NaN or infinite: step 0, `vertex` names the first
   out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
@@ -73,7 +73,9 @@ struct ActiveSet {
   std::vector<PairKind> kind;
   std::vector<int> a, b;
   std::vector<std::array<int, 4>> vertices;
-  std::vector<double> toi;      // certified: the pair is apart on [0, toi); never later than the exact time
+  std::vector<double> toi;  // certified: the pair is apart on [0, toi); never later than the exact time
+  std::vector<double>
+      step_limit;  // how far the pair lets a step go: toi; initial_separating: the next contact, 1 if none
   std::vector<Outcome> status;  // contact, initial_contact, initial_separating or budget
   Outcome outcome =
       Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is empty
@@ -88,7 +90,9 @@ struct ActiveSet {
 // One pair on its own.
 struct QueryResult {
   Outcome outcome = Outcome::free;
-  double toi = 1;        // in [0, 1]; 1 when free
+  double toi = 1;  // in [0, 1]; 1 when free
+  double step_limit =
+      1;  // how far the pair lets a step go: toi; initial_separating: the next contact, 1 if none
   double tolerance = 0;  // distance beyond the separation at which the pair was reported
   std::int64_t checks = 0;
   bool collides() const { return outcome != Outcome::free; }
