@@ -6,7 +6,8 @@
 
 namespace onset::oracle {
 
-std::string broken_promise(const scenes::Query&, const Options&, const QueryResult& result, const Known& truth) {
+std::string broken_promise(const scenes::Query&, const Options&, const QueryResult& result,
+                           const Known& truth) {
   if (!(result.toi >= 0 && result.toi <= 1)) return "toi outside [0, 1]";
   if (truth.contact && !result.collides()) return "missed a contact";
   if (truth.contact && !(result.toi <= truth.latest)) return "toi later than the contact";
