@@ -33,9 +33,9 @@ static std::string wrong_outcome(const scenes::Query& query, const Options& opti
   if (within && !initial) return "starts within the separation, not said";
   if (outcome == Outcome::initial_separating) {
     const double rounding = 0x1p-45 * extent(query), start = distance(query, 0, options.norm).lo - rounding;
-    for (double t : {0x1p-20, 0.125, 0.25, 0.5, 0.75, 1.0})
-      if (start > 0 && compare_distance(query, t, start, options.norm) < 0)
-        return "called separating, but comes closer";
+    for (double part : {0x1p-20, 0.125, 0.25, 0.5, 0.75, 1.0})
+      if (start > 0 && compare_distance(query, part * result.step_limit, start, options.norm) < 0)
+        return "called separating, but comes closer before step_limit";
   }
   return {};
 }
