@@ -12,6 +12,7 @@ struct KernelPairs {
   int count;
   double scale;                // a power of two that brings the scene's largest corner difference near 1
   double tolerance;  // model length
+  double sharpest;   // scaled: the tolerance is at most this share of a pair\'s largest corner difference
   double reach;      // a pair reported at time t is within d + reach then, model length
   // Beyond d a pair must also keep this share of its certified initial gap, in [0, 1), plus `rounding` (model length), but
   // never more than half of what the share leaves.

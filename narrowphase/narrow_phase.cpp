@@ -15,6 +15,8 @@ namespace {
 // Advancement converges so fast that stopping at a sixteenth of the tolerance costs about one check, and most
 // pairs that pass within the tolerance without touching are then told apart.
 constexpr double kSharpness = 0.0625;
+// Nor is more given away than this share of the pair's size: hand-made near misses have gaps of 1e-11 of it.
+constexpr double kSharpest = 0x1p-38;
 
 // With fewer checks than this a pair may be reported far from contact, and a horizon could hide it: then it
 // is not used.
@@ -97,6 +99,7 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           int(count),
           scale_,
           inclusion_only ? in_.tolerance : kSharpness * in_.tolerance,
+          inclusion_only ? 2 : kSharpest,
           in_.tolerance,
           in_.keep,
           in_.rounding,
@@ -236,7 +239,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
     const double floor = 116 * 0x1p-53 * corners.rho;  // 16 E7, as at a start that is apart
     KernelResult later = found;
     later.t = parting.t;
-    later.delta = std::max(std::min(kSharpness * in_.tolerance / found.unit, 0.25 * parting.excess), floor);
+    later.delta = std::max(std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
     later.verdict = Verdict::stalled;
     std::vector<PairResult> next;
     finish(c, later, stats, next);

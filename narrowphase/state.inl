@@ -100,7 +100,7 @@ inline void set_up(const KernelPairs& pairs, const int* rows, State<D4, K>& s) {
   double d[4];
   for (int l = 0; l < 4; ++l) d[l] = pairs.separation[rows[l]];
   s.d = V::load(d) * scale;
-  s.delta = V::all(pairs.tolerance) * scale;
+  s.delta = min(V::all(pairs.tolerance) * scale, V::all(pairs.sharpest));
   s.unit = one<V>() / scale;
   s.t = s.slow = s.checks = zero<V>();
   s.t_prev = V::all(-1);

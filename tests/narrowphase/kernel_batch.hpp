@@ -34,6 +34,7 @@ class KernelBatch {
   // Of all pairs; views this object.
   KernelPairs pairs(double tolerance, bool maximum_norm = false, long long max_checks = 10000) const {
     KernelPairs p{};
+    p.sharpest = 2;
     p.x = x_.data();
     p.vertices = reinterpret_cast<const int(*)[4]>(ids_.data());
     p.separation = separation_.data();
