@@ -56,7 +56,9 @@ std::uint64_t hash_of(const onset::ActiveSet& set) {
 
 double SceneCost::narrow_ns_a_candidate() const {
   const auto candidates = stats.candidates.total();
-  return candidates ? 1e9 * active_set.narrow.median / double(candidates) : 0;
+  if (candidates == 0) return 0;
+  const double share = active_set.narrow.median / active_set.wall.median;
+  return 1e9 * share * active_set.cpu.median / double(candidates);
 }
 
 double SceneCost::checks_a_hit() const {

@@ -24,7 +24,7 @@ struct SceneCost {
   onset::StepResult step_result;
   std::uint64_t hash = 0;  // of the active set
 
-  double narrow_ns_a_candidate() const;
+  double narrow_ns_a_candidate() const;  // of CPU time, which is shared out as the wall time is
   double checks_a_hit() const;
 };
 
