@@ -13,6 +13,7 @@ import csv
 import json
 import math
 import multiprocessing
+import os
 import subprocess
 import sys
 import tempfile
@@ -128,6 +129,7 @@ def serve_ipctk(name, pipe):
     import ipctk
     import numpy as np
 
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # its root finder logs to stdout
     ipctk.set_num_threads(1)
     ipctk.set_logger_level(ipctk.LoggerLevel.error)
     ccd = getattr(ipctk, name)()
