@@ -7,7 +7,7 @@ library="g++ cmake ninja-build libeigen3-dev libtbb-dev"
 apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
 tests="catch2 libboost-dev libgmp-dev libfcl-dev pkg-config python3 python3-venv ca-certificates"
 peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
-clang="clang"
+clang="clang libclang-rt-dev"
 
 wanted=
 for group; do

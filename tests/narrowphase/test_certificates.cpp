@@ -98,10 +98,10 @@ void check_all(decltype(&certificates_plain) certificates) {
                    if (usable(query)) check(source, query, random, certificates, tally);
                  });
   CAPTURE(tally.fixed, tally.moving, tally.normal, tally.partial);
-  CHECK(tally.fixed > 300);
-  CHECK(tally.moving > 300);
-  CHECK(tally.normal > 100);
-  CHECK(tally.partial > 300);
+  CHECK(tally.fixed > fuzz(300));
+  CHECK(tally.moving > fuzz(300));
+  CHECK(tally.normal > fuzz(100));
+  CHECK(tally.partial > fuzz(300));
 }
 
 }  // namespace
@@ -139,6 +139,6 @@ TEST_CASE("every interval certified along an edge is free", "[property][oracle]"
           FAIL_CHECK(source << " from " << t << " to " << until << "\n  " << to_text(query));
       });
   CAPTURE(certified, partial);
-  CHECK(certified > 300);
-  CHECK(partial > 100);
+  CHECK(certified > fuzz(300));
+  CHECK(partial > fuzz(100));
 }

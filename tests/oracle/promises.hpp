@@ -1,6 +1,7 @@
 // What the library promises about a single query, checked against the exact truth.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -36,7 +37,7 @@ std::string to_text(const Options& options, const QueryResult& result);
 // ONSET_FUZZ in the environment multiplies the number of random queries; ONSET_SEED changes them.
 inline int fuzz(int count) {
   const char* factor = std::getenv("ONSET_FUZZ");
-  return factor ? int(count * std::atof(factor)) : count;
+  return factor ? std::max(1, int(count * std::atof(factor))) : count;
 }
 inline std::uint64_t fuzz_seed() {
   const char* seed = std::getenv("ONSET_SEED");
