@@ -241,7 +241,7 @@ void check_bounds(const char* build, Compute values) {
       INFO(name);
       Random random(81);
       const double largest = climb(
-          name.c_str(), 6, fuzz(500), random, [&](Random& r) { return make_input(kind, r); }, change_input,
+          name.c_str(), 6, std::max(500, fuzz(500)), random, [&](Random& r) { return make_input(kind, r); }, change_input,
           [&](const Input& in) { return bound.ratio(values, in); });
       CHECK(largest <= 1);
       CHECK(largest >= bound.at_least);

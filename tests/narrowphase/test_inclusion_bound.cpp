@@ -102,7 +102,7 @@ TEST_CASE("the running bound of halved corners holds", "[property][oracle]") {
   double largest = 0;
   for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     Random random(97);
-    for (int i = 0; i < fuzz(150); ++i) {
+    for (int i = 0; i < std::max(150, fuzz(150)); ++i) {
       Query query = scenes::mixed_query(kind, random);
       if (scenes::coin(random))
         query = scenes::moved(query, scenes::point(random, scenes::power_of_ten(random, 0, 6)));
