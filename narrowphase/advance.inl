@@ -65,17 +65,25 @@ inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm
   return certified<V>(turning, select(reached >= one<V>(), V::all(2), reached));
 }
 
-// The same with the pair's own normal n(s): one cubic for all corners.
+// The same with the pair's own normal n(s): one cubic for all corners. Each hull step starts where the last one ended, from the
+// whole cubic again, so that errors do not add up; the second costs less than the check that it saves.
+constexpr int kHullSteps = 2;
 template <class V, int K>
 inline V certify_normal(const State<V, K>& s) {
-  V x[4] = {s.f[0], s.f[1], s.f[2], s.f[3]};
-  right_part(x, s.t);
   const V margin = (s.f_error + separation_wanted(s) * s.n_largest) * V::all(1 + 0x1p-48);
-  const auto negative = x[0] < zero<V>();
-  for (V& xi : x) xi = select(negative, zero<V>() - xi, xi) - margin;
-  const V lambda = hull_step(x);
-  const V reached = (s.t + lambda * (one<V>() - s.t)) * V::all(1 - 0x1p-50);
-  return certified<V>(lambda > zero<V>(), select(lambda >= one<V>(), V::all(2), reached));
+  V reached = s.t;
+  auto side = s.t < zero<V>(), progress = side, whole = side;
+  for (int step = 0; step < kHullSteps; ++step) {
+    V x[4] = {s.f[0], s.f[1], s.f[2], s.f[3]};
+    right_part(x, reached);
+    if (step == 0) side = x[0] < zero<V>();
+    for (V& xi : x) xi = select(side, zero<V>() - xi, xi) - margin;
+    const V lambda = hull_step(x);
+    reached = max((reached + lambda * (one<V>() - reached)) * V::all(1 - 0x1p-50), reached);
+    progress = progress | (lambda > zero<V>());
+    whole = whole | (lambda >= one<V>());
+  }
+  return certified<V>(progress, select(whole, V::all(2), reached));
 }
 
 // One check: decides lanes in contact, moves the others on. Returns the masks of contact and of lanes without progress.
@@ -139,7 +147,7 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
   V w[3], dist;
   look(s, s.t, maximum_norm, w, dist);
   const V e7 = V::all(7.25 * kU) * s.rho;
-  // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 4u) for the Euclidean norm.
+  // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 5u) for the Euclidean norm.
   V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
   // A share of the gap is kept (paper, section 7.2: d = p d_i), and room for the caller's rounding of positions.
   const V share = V::all(pairs.keep) * apart + V::all(pairs.rounding) / s.unit;

@@ -3,7 +3,7 @@
 // Notation: R_a bounds |c_a| of every computed corner at both ends, rho = |R| rounded up, so |w_a| R_a summed is at most
 // |w| rho. A computed corner has relative error u, so a dot product of it errs by (1 + 3) u |w| rho = 4u; a lerp in time adds
 // 3u (E7); a Bernstein coefficient of a moving direction adds u more (E8); each with factor 1.0625 for second-order terms,
-// for rho's own rounding and for |w| <= 1 + 4u. Corners are scaled so that the largest component is in [1, 2): a product that
+// for rho's own rounding and for |w| <= 1 + 5u. Corners are scaled so that the largest component is in [1, 2): a product that
 // underflows errs by less than 2^-1074, far below u rho, and is covered by the same factor.
 
 template <class V>
@@ -14,24 +14,30 @@ inline V certified(typename V::Mask ok, V time) {
 // A direction constant on [t, t'], products g0 = w.c_k(0) and g1 = w.c_k(1) with threshold thr = E4 + (separation demanded).
 // The exact product is within E4 of (1-s) g0 + s g1 for every s in [0,1], so where that line exceeds thr the pair is apart.
 // x = g0 - thr and y = g1 - thr have exact signs and relative error u, x - y sums two non-negative numbers when the signs
-// differ, so the root r has relative error below 4u; 2^-50 = 8u is taken off. Returns the time until which [t, .] is
-// certified, 2 for the whole rest, or -1. NaN fails every comparison and certifies nothing.
+// differ, so each root x / (x - y) is known within 4u. The extreme roots are picked by products across, which neither under- nor
+// overflow (thr > 2^-52, so a non-zero x or y is above 2^-106), each choice within 2u: with the division and up to four
+// choices within 14u; 2^-49 = 16u is taken off. Returns the time until which [t, .] is certified, 2 for the whole rest, or
+// -1. NaN fails every comparison and certifies nothing.
 template <class V, int K>
 inline V fixed_certificate(const V (&g0)[K], const V (&g1)[K], V thr, V t) {
-  V enter = zero<V>(), exit = V::all(2);
-  auto valid = t >= zero<V>();
+  V exit = V::all(2), exit_over = one<V>(), enter = zero<V>(), enter_over = one<V>();
+  auto valid = t >= zero<V>(), at_start = valid, leaves = t < zero<V>();
   for (int k = 0; k < K; ++k) {
-    const V x = g0[k] - thr, y = g1[k] - thr;
+    const V x = g0[k] - thr, y = g1[k] - thr, below = zero<V>() - x, fall = x - y, rise = y - x;
     const auto x_apart = x > zero<V>(), y_apart = y > zero<V>();
-    const V span = x - y;
-    const V r = x / span;
-    const auto leaves = x_apart & (y <= zero<V>());
-    const auto arrives = (x <= zero<V>()) & y_apart;
-    exit = min(select(leaves, r * V::all(1 - 0x1p-50), V::all(2)), exit);
-    enter = max(select(arrives, r * V::all(1 + 0x1p-50) + V::all(0x1p-1000), zero<V>()), enter);
-    valid = valid & (x_apart | y_apart) & (span == span);
+    const auto first_out = x_apart & (y <= zero<V>()) & (x * exit_over < exit * fall);
+    leaves = leaves | first_out;
+    exit = select(first_out, x, exit);
+    exit_over = select(first_out, fall, exit_over);
+    const auto last_in = (x <= zero<V>()) & y_apart & (below * enter_over > enter * rise);
+    enter = select(last_in, below, enter);
+    enter_over = select(last_in, rise, enter_over);
+    at_start = at_start & x_apart;
+    valid = valid & (x_apart | y_apart) & (fall == fall);
   }
-  return certified<V>(valid & (enter <= t) & (t < exit), exit);
+  const V until = select(leaves, exit / exit_over * V::all(1 - 0x1p-49), V::all(2));
+  const V since = enter / enter_over * V::all(1 + 0x1p-49) + V::all(0x1p-1000);
+  return certified<V>(valid & (at_start | (since <= t)) & (t < until), until);
 }
 
 // The first root of the quadratic with Bernstein coefficients x0, x1, x2 on L in [0,1], rounded down so that the quadratic is
@@ -67,16 +73,22 @@ inline void right_part(V (&f)[4], V t) {
 
 // How far, as a fraction of its interval, a polynomial with Bernstein coefficients x stays positive: its graph lies in the hull
 // of the points (i/3, x_i), and the first crossing of that hull with zero is on a segment between a positive and a
-// non-positive point, over all such pairs. At most 8 roundings: 2^-49 is taken off. 1 for the whole, 0 for nothing.
+// non-positive point, over all such pairs: from i, on the steepest. At most 9 roundings: 2^-49 is taken off. 1 for the whole, 0
+// for nothing.
 template <class V>
 inline V hull_step(const V (&x)[4]) {
-  V lambda = one<V>();
-  for (int i = 0; i < 3; ++i)
-    for (int j = i + 1; j < 4; ++j) {
-      const V crossing = (V::all(i) + V::all(j - i) * (x[i] / (x[i] - x[j]))) / V::all(3);
-      const auto crosses = (x[i] > zero<V>()) & (x[j] <= zero<V>());
-      lambda = min(select(crosses, crossing * V::all(1 - 0x1p-49), one<V>()), lambda);
-    }
+  const V over[4] = {one<V>(), one<V>(), V::all(0.5), V::all(1.0 / 3)};
+  V lambda = V::all(3);
+  for (int i = 0; i < 3; ++i) {
+    V steepest = zero<V>();
+    for (int j = i + 1; j < 4; ++j)
+      steepest = max(select(x[j] <= zero<V>(), (x[i] - x[j]) * over[j - i], zero<V>()), steepest);
+    const auto crosses = (x[i] > zero<V>()) & (steepest > zero<V>());
+    const V crossing = V::all(i) + x[i] / select(crosses, steepest, one<V>());
+    lambda = min(select(crosses, crossing, V::all(3)), lambda);
+  }
+  const auto whole = (x[1] > zero<V>()) & (x[2] > zero<V>()) & (x[3] > zero<V>());
+  lambda = select(whole, one<V>(), lambda * V::all((1.0 / 3) * (1 - 0x1p-49)));
   const auto finite = (x[0] == x[0]) & (x[1] == x[1]) & (x[2] == x[2]) & (x[3] == x[3]);
   return select(finite & (x[0] > zero<V>()), lambda, zero<V>());
 }

@@ -109,15 +109,6 @@ inline void cheap_direction(const V (&c)[3][3], V (&w)[3]) {
   for (int a = 0; a < 3; ++a) w[a] = select(inside, select(below, zero<V>() - n[a], n[a]), w[a]);
 }
 
-// w / |w| by one reciprocal: |w| <= 1 + 5u.
-template <class V>
-inline void shorten(V (&w)[3]) {
-  const V ww = dot(w, w);
-  const auto valid = (ww >= V::all(Thresholds<V>::tiny)) & (ww <= V::all(Thresholds<V>::huge));
-  const V inverse = select(valid, one<V>() / sqrt(select(valid, ww, one<V>())), zero<V>());
-  for (V& x : w) x = x * inverse;
-}
-
 // What is demanded along w: error, separation, and an upper bound of the share of the initial gap that advancement keeps.
 template <class V>
 inline V demand(const V (&w)[3], V d, V error, bool maximum_norm) {
@@ -139,15 +130,15 @@ inline int cull_eight(const KernelPairs& pairs, const int* rows, bool refined) {
   V w0[3], w1[3];
   cheap_direction(s.c[0], w0);
   cheap_direction(s.c[1], w1);
-  shorten(w0);
-  shorten(w1);
+  normalise(w0);
+  normalise(w1);
   const V m0 = demand(w0, d, s.error, pairs.maximum_norm), m1 = demand(w1, d, s.error, pairs.maximum_norm);
   if (!refined) return bits(separates(s.c[0], s.c[1], w0, w1, m0, m1));
   V middle[K][3], wm[3];
   for (int k = 0; k < K; ++k)
     for (int a = 0; a < 3; ++a) middle[k][a] = V::all(0.5f) * (s.c[0][k][a] + s.c[1][k][a]);
   cheap_direction(middle, wm);
-  shorten(wm);
+  normalise(wm);
   const V mm = demand(wm, d, s.error, pairs.maximum_norm);
   return bits(separates(s.c[0], middle, w0, wm, m0, mm) & separates(middle, s.c[1], wm, w1, mm, m1));
 }

@@ -23,14 +23,14 @@ inline V one() {
   return V::all(1);
 }
 
-// w / |w|, or 0 where |w| is out of range. The result has |w| <= 1 + 4u: dot has relative error 3u, sqrt halves it and adds u,
-// the division adds u.
+// w / |w|, or 0 where |w| is out of range. The result has |w| <= 1 + 5u: dot has relative error 3u, sqrt halves it and adds u,
+// the reciprocal and the product add u each.
 template <class V>
 inline void normalise(V (&w)[3]) {
   const V ww = dot(w, w);
   const auto valid = (ww >= V::all(Thresholds<V>::tiny)) & (ww <= V::all(Thresholds<V>::huge));
-  const V length = sqrt(select(valid, ww, one<V>()));
-  for (V& x : w) x = select(valid, x / length, zero<V>());
+  const V inverse = select(valid, one<V>() / sqrt(select(valid, ww, one<V>())), zero<V>());
+  for (V& x : w) x = x * inverse;
 }
 
 // The smallest product with a corner.
@@ -115,7 +115,6 @@ inline void spanning_edges(const V (&c)[3][3], V (&e1)[3], V (&e2)[3]) {
 template <class V, int K>
 inline void best_direction(const V (&c)[K][3], const Nearest<V>& nearest, const V (&e1)[3], const V (&e2)[3], V (&w)[3]) {
   for (int a = 0; a < 3; ++a) w[a] = nearest.f[a];
-  normalise(w);
   // Polish: strictly inside a segment the direction is perpendicular to it. Twice, so that both far ends see a direction whose
   // error is relative to the edge and not to the gap.
   const V inverse = select(nearest.inside, one<V>() / select(nearest.inside, nearest.ee, one<V>()), zero<V>());
@@ -163,9 +162,9 @@ inline void interior_point(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3
   const V aa = dot(e1, e1), ab = dot(e1, e2), bb = dot(e2, e2), p = dot(e1, c[0]), q = dot(e2, c[0]);
   const V det = aa * bb - ab * ab;
   const auto valid = det > V::all(Thresholds<V>::tiny);
-  const V safe = select(valid, det, one<V>());
-  V u = select(valid, (ab * q - bb * p) / safe, zero<V>());
-  V v = select(valid, (ab * p - aa * q) / safe, zero<V>());
+  const V inverse = select(valid, one<V>() / select(valid, det, one<V>()), zero<V>());
+  V u = (ab * q - bb * p) * inverse;
+  V v = (ab * p - aa * q) * inverse;
   clamp_parameters(c, u, v);
   evaluate(c, u, v, f);
 }

@@ -19,7 +19,7 @@ template <int K>
 constexpr int kFields = sizeof(State<D4, K>) / (4 * sizeof(double));
 
 template <class V>
-inline V norm_factor(const V (&w)[3], bool maximum_norm) {  // dual norm of a direction of Euclidean length <= 1 + 4u
+inline V norm_factor(const V (&w)[3], bool maximum_norm) {  // dual norm of a direction of Euclidean length <= 1 + 5u
   return maximum_norm ? (abs(w[0]) + abs(w[1])) + abs(w[2]) : one<V>();
 }
 template <class V, int K>

@@ -1,5 +1,6 @@
 // A second opinion on contacts that shares nothing with the first but the rational numbers: walk along the
 // distance. If the pair is d apart at t and no difference of corners moves faster than v, it is apart until t
+#include <algorithm>
 // + d / v.
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
