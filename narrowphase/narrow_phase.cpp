@@ -136,7 +136,8 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   scratch.stats.after_culls += survivors;
   for (int i = 0; i < survivors; ++i) {
     const int row = scratch.survivors[std::size_t(i)];
-    const KernelResult& r = scratch.results[std::size_t(i)];
+    KernelResult& r = scratch.results[std::size_t(i)];
+    if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) r.checks = 0;  // its checks are boxes
     scratch.stats.checks += r.checks;
     scratch.stats.most_checks = std::max<std::int64_t>(scratch.stats.most_checks, r.checks);
     if (r.verdict != Verdict::free) finish({kind, pairs[row], input, row}, r, scratch.stats, out);
@@ -207,7 +208,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
   if (in_.rounding > 0) note_kept(c, found, stats);
   if (found.verdict == Verdict::initial) return finish_initial(c, corners_of(c), found, stats, out);
   // These moved on after their last look.
-  if (found.verdict == Verdict::budget || found.checks == 1) found.distance = distance_at(c, found.t);
+  if (found.verdict == Verdict::budget || found.checks <= 1) found.distance = distance_at(c, found.t);
   if (found.verdict == Verdict::budget) r.outcome = Outcome::budget;
   r.toi = r.step_limit = found.t;
   r.tolerance = std::max(0.0, (found.distance - d) * found.unit);
@@ -240,7 +241,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
     KernelResult later = found;
     later.t = parting.t;
     later.delta = std::max(std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
-    later.verdict = Verdict::stalled;
+    later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::budget;
     std::vector<PairResult> next;
     finish(c, later, stats, next);
     r.step_limit = next.empty() ? 1 : next[0].step_limit;
