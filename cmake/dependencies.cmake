@@ -8,3 +8,7 @@ endif()
 if(NOT TARGET TBB::tbb)
   find_package(TBB REQUIRED)
 endif()
+# Boost.Multiprecision, headers only: integers of any size for the exact decision. Nothing of it is linked or exported.
+if(NOT TARGET Boost::boost)
+  find_package(Boost 1.74 REQUIRED)
+endif()

@@ -10,7 +10,7 @@ set_target_properties(onset PROPERTIES
 target_compile_features(onset PUBLIC cxx_std_17)
 target_include_directories(onset PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                  PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE TBB::tbb)
+target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE TBB::tbb $<BUILD_INTERFACE:Boost::boost>)
 target_compile_options(onset PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off -fno-fast-math -Wall -Wextra>)
 
 # Tests see the rooms inside, which a shared library hides: for them the same objects in a static one.
@@ -21,7 +21,7 @@ if(ONSET_BUILD_TESTS AND BUILD_SHARED_LIBS)
   target_compile_features(onset_inside PUBLIC cxx_std_17)
   target_compile_definitions(onset_inside PRIVATE $<TARGET_PROPERTY:onset,COMPILE_DEFINITIONS>)
   target_compile_options(onset_inside PRIVATE $<TARGET_PROPERTY:onset,COMPILE_OPTIONS>)
-  target_link_libraries(onset_inside PUBLIC Eigen3::Eigen PRIVATE TBB::tbb)
+  target_link_libraries(onset_inside PUBLIC Eigen3::Eigen PRIVATE TBB::tbb Boost::boost)
 else()
   add_library(onset_inside ALIAS onset)
 endif()

@@ -3,7 +3,7 @@
 #   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang
 set -eu
 
-library="g++ cmake ninja-build libeigen3-dev libtbb-dev"
+library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
 apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
 tests="catch2 libboost-dev libgmp-dev libfcl-dev pkg-config python3 python3-venv ca-certificates"
 peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"

@@ -1,0 +1,187 @@
+#include "narrowphase/exact.hpp"
+
+#include <algorithm>
+
+#include "narrowphase/exact_complete.hpp"
+#include "narrowphase/exact_search.hpp"
+
+namespace onset {
+namespace {
+
+// Deeper searches are degenerate as a rule, and the complete decision is then quicker.
+constexpr int kDeepest = 24;
+
+// x = mantissa 2^exponent but for the sign and a common factor.
+struct Bits {
+  std::uint64_t mantissa;
+  int exponent;
+  bool negative;
+};
+Bits split(double x) {
+  const std::uint64_t b = double_bits(x);
+  const int exponent = int(b >> 52 & 0x7ff);
+  const std::uint64_t fraction = b & 0xfffffffffffffull;
+  return {exponent == 0 ? fraction : fraction | 1ull << 52, std::max(exponent, 1), b >> 63 != 0};
+}
+
+// All coordinates are integers of magnitude below 2^bits in units of 2^last.
+struct Grid {
+  int last, bits;
+};
+Grid grid_of(const ExactPair& pair) {
+  int last = 4096, top = 0;
+  for (const auto* points : {&pair.t0, &pair.t1})
+    for (const double* p : *points)
+      for (int a = 0; a < 3; ++a) {
+        const Bits x = split(p[a]);
+        if (x.mantissa == 0) continue;
+        last = std::min(last, x.exponent + __builtin_ctzll(x.mantissa));
+        top = std::max(top, x.exponent + 64 - __builtin_clzll(x.mantissa));
+      }
+  return {last, std::max(top - last, 0)};
+}
+
+std::int64_t placed(std::int64_t, std::uint64_t mantissa, int shift) {
+  return std::int64_t(mantissa << shift);
+}
+template <int N>
+Wide<N> placed(const Wide<N>&, std::uint64_t mantissa, int shift) {
+  return shifted(Wide<N>(std::int64_t(mantissa)), shift);
+}
+
+template <class C>
+using IntegerPoints = std::array<std::array<C, 3>, 4>;
+
+template <class C>
+IntegerPoints<C> on_grid(const double* const (&points)[4], int last) {
+  IntegerPoints<C> r;
+  for (int i = 0; i < 4; ++i)
+    for (int a = 0; a < 3; ++a) {
+      const Bits x = split(points[i][a]);
+      const int shift = x.exponent - last;
+      const C size = x.mantissa == 0 ? C(0)
+                     : shift < 0     ? placed(C(0), x.mantissa >> -shift, 0)
+                                     : placed(C(0), x.mantissa, shift);
+      r[i][a] = x.negative ? -size : size;
+    }
+  return r;
+}
+
+// How deep a search may go where the coordinates of q, a, b are below 2^(bits + 1) and the cubic has `width`
+// bits; < 0: it does not fit.
+int depth_for(int bits, int width) {
+  const int room = width - 2 - (3 * (bits + 1) + 5);
+  return room < 0 ? -1 : std::min(room / 3, kDeepest);
+}
+
+// The sign of f at a time, in `width` bits: f (2^e)^3 is homogeneous in x and y = 2^e - x, each term below
+// 2^(3 (bits + 1) + 5 + 3 e + 2).
+template <int Limbs, class T>
+struct CubicSign {
+  const T (&f)[4];
+  int bits;
+  bool fits = true;
+
+  int at(double t) {
+    const Dyadic d = to_dyadic(t);
+    if (3 * (bits + 1) + 10 + 3 * d.exponent > 64 * Limbs) {
+      fits = false;
+      return 0;
+    }
+    const Wide<Limbs> x(d.numerator), y = shifted(Wide<Limbs>(1), d.exponent) - x, three(3), yy = y * y;
+    const Wide<Limbs> inner =
+        (Wide<Limbs>(f[3]) * x + three * Wide<Limbs>(f[2]) * y) * x + three * Wide<Limbs>(f[1]) * yy;
+    return sign_of(inner * x + Wide<Limbs>(f[0]) * (yy * y));
+  }
+};
+
+template <int Limbs, class T>
+std::optional<DoubleBracket> bracket(const T (&f)[4], int bits, const ContactInterval& found) {
+  const double width = std::ldexp(1.0, -found.depth), lo = double(found.k) * width;
+  if (found.exact) return DoubleBracket{lo, lo};
+  const double hi = lo + width;  // exact: k < 2^24
+  CubicSign<Limbs, T> sign{f, bits};
+  double c[4];
+  for (int i = 0; i < 4; ++i) c[i] = estimate(f[i]);
+  for (int level = found.depth - 1; level >= 0; --level) {  // to the interval, as the search went there
+    const double a = 0.5 * (c[0] + c[1]), m = 0.5 * (c[1] + c[2]), b = 0.5 * (c[2] + c[3]);
+    const double am = 0.5 * (a + m), mb = 0.5 * (m + b), middle = 0.5 * (am + mb);
+    if (found.k >> level & 1)
+      c[0] = middle, c[1] = mb, c[2] = b;
+    else
+      c[1] = a, c[2] = am, c[3] = middle;
+  }
+  // f has no zero at lo, and at hi the other sign.
+  const int before = lo == 0 ? sign_of(f[0]) : sign.at(lo);
+  const double guess = (c[0] < 0) != (c[3] < 0) ? approximate_root(c) : 0.5;
+  const DoubleBracket r =
+      adjacent_doubles(lo, hi, lo + guess * width, [&](double t) { return before * sign.at(t); });
+  if (!sign.fits) return std::nullopt;
+  return r;
+}
+
+struct Decided {
+  Answer answer;
+  std::optional<DoubleBracket> time;  // where it is yes and was asked for; none: not known
+};
+
+template <int Limbs, class C, class M, class T>
+Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerPoints<C>& t1, int bits,
+               int depth, bool want_time) {
+  ExactSearch<C, M, T> s(pair.kind, relative_vectors(pair.kind, t0), relative_vectors(pair.kind, t1), depth);
+  const ContactInterval found = s.first();
+  if (found.answer != Answer::yes || !want_time) return {found.answer, {}};
+  return {found.answer, bracket<Limbs>(s.cubic(), bits, found)};
+}
+
+// Coordinates of up to 61 bits in machine words; first with a cubic of 128 bits where that is enough.
+Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
+  const auto t0 = on_grid<std::int64_t>(pair.t0, grid.last), t1 = on_grid<std::int64_t>(pair.t1, grid.last);
+  const int shallow = depth_for(grid.bits, 128);
+  if (shallow >= 4) {
+    const Decided r = search<8, std::int64_t, Int128, Int128>(pair, t0, t1, grid.bits, shallow, want_time);
+    if (r.answer != Answer::unknown) return r;
+  }
+  return search<8, std::int64_t, Int128, Wide<4>>(pair, t0, t1, grid.bits, depth_for(grid.bits, 256),
+                                                  want_time);
+}
+
+constexpr int kWide = 8;
+Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool want_time) {
+  using W = Wide<kWide>;
+  const Dyadic start = to_dyadic(from);
+  const int bits = grid.bits + start.exponent + 1, depth = depth_for(bits, 64 * kWide);
+  if (depth < 4) return {Answer::unknown, {}};
+  auto t0 = on_grid<W>(pair.t0, grid.last), t1 = on_grid<W>(pair.t1, grid.last);
+  if (from > 0) {  // the positions then, in units that make them integers
+    const W one = shifted(W(1), start.exponent), passed(start.numerator);
+    for (int i = 0; i < 4; ++i)
+      for (int a = 0; a < 3; ++a) {
+        t0[i][a] = t0[i][a] * (one - passed) + t1[i][a] * passed;
+        t1[i][a] = t1[i][a] * one;
+      }
+  }
+  return search<12, W, W, W>(pair, t0, t1, bits, depth, want_time);
+}
+
+Decided search(const ExactPair& pair, double from, bool want_time) {
+  const Grid grid = grid_of(pair);
+  return from == 0 && grid.bits <= 61 ? search_narrow(pair, grid, want_time)
+                                      : search_wide(pair, grid, from, want_time);
+}
+
+}  // namespace
+
+bool exactly_touches(const ExactPair& pair, double from) {
+  const Decided r = search(pair, from, false);
+  return r.answer == Answer::unknown ? completely_touches(pair, from) : r.answer == Answer::yes;
+}
+
+std::optional<DoubleBracket> exact_first_contact(const ExactPair& pair) {
+  const Decided r = search(pair, 0, true);
+  if (r.answer == Answer::no) return std::nullopt;
+  if (r.answer == Answer::yes && r.time) return r.time;
+  return complete_first_contact(pair);
+}
+
+}  // namespace onset

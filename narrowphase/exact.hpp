@@ -1,0 +1,21 @@
+// Do two primitives that move linearly touch, and when? The exact answer for the stored doubles: closed
+// primitives, separation 0, every degenerate case.
+#pragma once
+
+#include <optional>
+
+#include "narrowphase/exact_pair.hpp"
+#include "narrowphase/exact_root.hpp"
+
+namespace onset {
+
+// Coordinates: finite, of any magnitude. A microsecond or two where contacts are isolated and not exactly on
+// the primitives' boundary; tens of microseconds elsewhere; more where magnitudes differ by more than 2^100.
+
+// Whether they touch at a time in [from, 1], from in [0, 1].
+bool exactly_touches(const ExactPair& pair, double from = 0);
+
+// The first time in [0, 1] at which they touch, between adjacent doubles (or the double that it is).
+std::optional<DoubleBracket> exact_first_contact(const ExactPair& pair);
+
+}  // namespace onset

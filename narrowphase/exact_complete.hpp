@@ -1,0 +1,16 @@
+// The decision that covers every degenerate pair, in integers of any size.
+#pragma once
+
+#include <optional>
+
+#include "narrowphase/exact_pair.hpp"
+#include "narrowphase/exact_root.hpp"
+
+namespace onset {
+
+// Whether the two touch at a time in [from, 1], from in [0, 1]. 20 us to some ms.
+bool completely_touches(const ExactPair& pair, double from);
+// The first contact in [0, 1].
+std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair);
+
+}  // namespace onset

@@ -1,0 +1,56 @@
+// A pair's positions as integers, and the form that both kinds share.
+#pragma once
+
+#include <array>
+
+#include "onset/result.hpp"
+
+namespace onset {
+
+// Three doubles a point: v, f0, f1, f2 or a0, a1, b0, b1 at both ends of the motion. Finite.
+struct ExactPair {
+  PairKind kind;
+  const double* t0[4];
+  const double* t1[4];
+};
+
+// Contact iff q = U a + V b with (U, V) in the triangle U, V >= 0, U + V <= 1 (vertex-face) or in the unit
+// square (edge-edge): vectors at one time.
+template <class C>
+struct RelativeVectors {
+  std::array<C, 3> q, a, b;
+};
+
+template <class C>
+std::array<C, 3> difference(const std::array<C, 3>& x, const std::array<C, 3>& y) {
+  return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+}
+
+// From the positions v, f0, f1, f2 or a0, a1, b0, b1.
+template <class C>
+RelativeVectors<C> relative_vectors(PairKind kind, const std::array<std::array<C, 3>, 4>& x) {
+  if (kind == PairKind::vertex_face)
+    return {difference(x[0], x[1]), difference(x[2], x[1]), difference(x[3], x[1])};
+  return {difference(x[2], x[0]), difference(x[1], x[0]), difference(x[2], x[3])};
+}
+
+// The boundary of the primitive {U a + V b}: the point q lies on it iff for a segment w x e = 0 and w.(e - w)
+// >= 0, e = 0 included. Where a and b are parallel the boundary is all of it.
+template <class C>
+struct PointAndSegment {
+  std::array<C, 3> w, e;
+};
+template <class C>
+int boundary_of(PairKind kind, const RelativeVectors<C>& r, PointAndSegment<C> (&out)[4]) {
+  out[0] = {r.q, r.a};
+  out[1] = {r.q, r.b};
+  if (kind == PairKind::vertex_face) {
+    out[2] = {difference(r.q, r.a), difference(r.b, r.a)};
+    return 3;
+  }
+  out[2] = {difference(r.q, r.b), r.a};
+  out[3] = {difference(r.q, r.a), r.b};
+  return 4;
+}
+
+}  // namespace onset
