@@ -122,7 +122,7 @@ std::optional<DoubleBracket> bracket(const T (&f)[4], int bits, const ContactInt
 
 struct Decided {
   Answer answer;
-  std::optional<DoubleBracket> time;  // where it is yes and was asked for; none: not known
+  std::optional<DoubleBracket> time;  // where it is yes; none: not known as precisely as was asked for
 };
 
 template <int Limbs, class C, class M, class T>
@@ -130,8 +130,10 @@ Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerP
                int depth, bool want_time) {
   ExactSearch<C, M, T> s(pair.kind, relative_vectors(pair.kind, t0), relative_vectors(pair.kind, t1), depth);
   const ContactInterval found = s.first();
-  if (found.answer != Answer::yes || !want_time) return {found.answer, {}};
-  return {found.answer, bracket<Limbs>(s.cubic(), bits, found)};
+  if (found.answer != Answer::yes) return {found.answer, {}};
+  if (want_time) return {found.answer, bracket<Limbs>(s.cubic(), bits, found)};
+  const double width = std::ldexp(1.0, -found.depth), lo = double(found.k) * width;
+  return {found.answer, DoubleBracket{lo, found.exact ? lo : lo + width}};
 }
 
 // Coordinates of up to 61 bits in machine words; first with a cubic of 128 bits where that is enough.
@@ -182,6 +184,14 @@ std::optional<DoubleBracket> exact_first_contact(const ExactPair& pair) {
   if (r.answer == Answer::no) return std::nullopt;
   if (r.answer == Answer::yes && r.time) return r.time;
   return complete_first_contact(pair);
+}
+
+ExactAnswer exact_answer(const ExactPair& pair, Effort effort) {
+  const Decided r = search(pair, 0, false);
+  if (r.answer == Answer::yes) return {r.answer, *r.time};
+  if (r.answer == Answer::no || effort == Effort::quick) return {r.answer, {}};
+  const auto time = complete_first_contact(pair, false);
+  return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
 }
 
 }  // namespace onset

@@ -18,4 +18,13 @@ bool exactly_touches(const ExactPair& pair, double from = 0);
 // The first time in [0, 1] at which they touch, between adjacent doubles (or the double that it is).
 std::optional<DoubleBracket> exact_first_contact(const ExactPair& pair);
 
+// Whether they touch in [0, 1], and an interval that holds the first time, as wide as it comes. quick:
+// `unknown` rather than more than a few microseconds.
+enum class Effort { quick, complete };
+struct ExactAnswer {
+  Answer answer;
+  DoubleBracket time;  // where the answer is yes
+};
+ExactAnswer exact_answer(const ExactPair& pair, Effort effort);
+
 }  // namespace onset

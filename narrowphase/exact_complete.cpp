@@ -75,10 +75,11 @@ double rounded_up(const Integer& k, unsigned depth) {
   return equal(down, k, depth) ? down : std::nextafter(down, 2);
 }
 
-DoubleBracket bracket(const IsolatedRoot& root) {
+DoubleBracket bracket(const IsolatedRoot& root, bool adjacent) {
   const double lo = rounded_down(root.k, root.depth);
   if (root.exact) return {lo, rounded_up(root.k, root.depth)};
   const double hi = rounded_up(root.k + 1, root.depth);
+  if (!adjacent) return {lo, hi};
   const int before = sign_at(root.p, root.k, root.depth);
   // A double strictly between lo and hi lies inside the isolating interval.
   return adjacent_doubles(lo, hi, 0.5 * (lo + hi), [&](double t) {
@@ -178,13 +179,12 @@ bool completely_touches(const ExactPair& pair, double from) {
   return touches;
 }
 
-std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair) {
+std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair, bool adjacent) {
   IntegerPoints t0, t1;
   set_points(pair, t0, t1);
   std::optional<DoubleBracket> first;
   CompleteDecision(pair.kind, t0, t1).find([&](const IsolatedRoot& root) {
-    const DoubleBracket t =
-        bracket(root);  // rounding is monotonic: the ends of the earliest are the smallest ends
+    const DoubleBracket t = bracket(root, adjacent);  // rounding is monotonic: the ends of the earliest are the smallest ends
     first = first ? DoubleBracket{std::min(first->lo, t.lo), std::min(first->hi, t.hi)} : t;
   });
   return first;

@@ -10,7 +10,7 @@ namespace onset {
 
 // Whether the two touch at a time in [from, 1], from in [0, 1]. 20 us to some ms.
 bool completely_touches(const ExactPair& pair, double from);
-// The first contact in [0, 1].
-std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair);
+// The first contact in [0, 1]; adjacent: between adjacent doubles, else in an interval as wide as it comes.
+std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair, bool adjacent = true);
 
 }  // namespace onset

@@ -14,6 +14,8 @@ struct ExactPair {
   const double* t1[4];
 };
 
+enum class Answer { no, yes, unknown };
+
 // Contact iff q = U a + V b with (U, V) in the triangle U, V >= 0, U + V <= 1 (vertex-face) or in the unit
 // square (edge-edge): vectors at one time.
 template <class C>

@@ -14,8 +14,6 @@
 
 namespace onset {
 
-enum class Answer { no, yes, unknown };
-
 // Where the first contact is: at k / 2^depth, or at f's only root in the open interval from there to (k + 1)
 // / 2^depth, at whose ends f has opposite signs.
 struct ContactInterval {

@@ -140,7 +140,7 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
     if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) r.checks = 0;  // its checks are boxes
     scratch.stats.checks += r.checks;
     scratch.stats.most_checks = std::max<std::int64_t>(scratch.stats.most_checks, r.checks);
-    if (r.verdict != Verdict::free) finish({kind, pairs[row], input, row}, r, scratch.stats, out);
+    if (r.verdict != Verdict::free) finish({kind, pairs[row], input, row}, r, 0, scratch.stats, out);
   }
 }
 
@@ -183,17 +183,21 @@ KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelR
   return r;
 }
 
-void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
+void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
                          std::vector<PairResult>& out) const {
   KernelResult found = checked;
   PairResult r{c.pair, 0, 0, 0, Outcome::contact};
   const double d = found.separation;
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
-  if (!inclusion_only && found.verdict == Verdict::stalled) found = push_on(c, corners_of(c), found);
+  // What stalls goes to the exact decision where that is asked anyway.
+  const bool skips_search = settles_completely() && !inclusion_only;
+  if (!inclusion_only && !skips_search && found.verdict == Verdict::stalled)
+    found = push_on(c, corners_of(c), found);
   stats.checks += found.checks - checked.checks;
   std::int64_t checks = found.checks;
   if (found.verdict == Verdict::free) return;
-  if (found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only)) {
+  if ((found.verdict == Verdict::stalled && !skips_search) ||
+      (found.verdict == Verdict::budget && inclusion_only)) {
     const InclusionResult searched =
         find_first_inclusion({corners_of(c), found.t, d, found.delta, in_.options.norm == Norm::maximum,
                               in_.options.max_checks - checks});
@@ -206,11 +210,21 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, NarrowPhase
     found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
   }
   if (in_.rounding > 0) note_kept(c, found, stats);
-  if (found.verdict == Verdict::initial) return finish_initial(c, corners_of(c), found, stats, out);
+  const ExactAnswer truth = settle(c, found, from);
+  if (truth.answer == Answer::no) return;
+  const bool real = truth.answer == Answer::yes;
+  if (found.verdict == Verdict::initial && !(real && truth.time.lo > 0))
+    return finish_initial(c, corners_of(c), found, truth, stats, out);
+  const bool later =
+      real && truth.time.lo > found.t && (in_.exact_times || found.verdict == Verdict::initial);
+  if (later) found.t = truth.time.lo;
   // These moved on after their last look.
-  if (found.verdict == Verdict::budget || found.checks <= 1) found.distance = distance_at(c, found.t);
-  if (found.verdict == Verdict::budget) r.outcome = Outcome::budget;
+  if (found.verdict != Verdict::contact || found.checks <= 1 || later)
+    found.distance = distance_at(c, found.t);
+  if (found.verdict == Verdict::budget && !real) r.outcome = Outcome::budget;
   r.toi = r.step_limit = found.t;
+  if (real || seen_within_separation(c, found)) r.certainty = r.limit_certainty = Certainty::certain;
+  if (real && from == 0) r.toi_hi = truth.time.hi;
   r.tolerance = std::max(0.0, (found.distance - d) * found.unit);
   stats.most_checks = std::max(stats.most_checks, checks);
   report(r, stats, out);
@@ -230,21 +244,33 @@ void NarrowPhase::note_kept(const Case& c, const KernelResult& found, NarrowPhas
 // Touching or closer than d at the start: where the motion parts the pair the step goes on, to the next
 // contact if there is one.
 void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
-                                 NarrowPhaseStats& stats, std::vector<PairResult>& out) const {
+                                 const ExactAnswer& truth, NarrowPhaseStats& stats,
+                                 std::vector<PairResult>& out) const {
   const double d = found.separation;
   const Parting parting = find_parting({corners, c.input, c.row, c.kind, *kernels_, d});
   PairResult r{c.pair, 0, parting.t, std::max(0.0, (found.distance - d) * found.unit),
                Outcome::initial_contact};
   if (parting.t > 0) r.outcome = Outcome::initial_separating;
+  const bool at_start = truth.answer == Answer::yes
+                            ? truth.time.hi == 0
+                            : found.distance <= c.input.separation[c.row] / found.unit;
+  if (at_start)
+    r.certainty = Certainty::touching_at_start;
+  else if (truth.answer == Answer::yes)
+    r.certainty = Certainty::certain;
+  if (truth.answer == Answer::yes) r.toi_hi = truth.time.hi;
+  if (parting.t == 0) r.limit_certainty = r.certainty;
   if (parting.apart && parting.t < 1) {
     const double floor = 116 * 0x1p-53 * corners.rho;  // 16 E7, as at a start that is apart
     KernelResult later = found;
     later.t = parting.t;
-    later.delta = std::max(std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
+    later.delta = std::max(
+        std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
     later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::budget;
     std::vector<PairResult> next;
-    finish(c, later, stats, next);
+    finish(c, later, parting.t, stats, next);
     r.step_limit = next.empty() ? 1 : next[0].step_limit;
+    if (!next.empty()) r.limit_certainty = next[0].certainty;
     if (!next.empty()) --stats.contacts;
   }
   report(r, stats, out);

@@ -7,6 +7,7 @@
 #include "base/motion.hpp"
 #include "base/pair_sink.hpp"
 #include "narrowphase/corners.hpp"
+#include "narrowphase/exact.hpp"
 #include "narrowphase/kernel.hpp"
 #include "onset/options.hpp"
 
@@ -20,7 +21,8 @@ struct NarrowPhaseInput {
   const Options& options;
   double keep =
       0;  // share of each pair's initial gap beyond its separation that it must keep as well, in [0, 1)
-  double rounding = 0;  // model length: kept too, up to half of what that share leaves
+  double rounding = 0;       // model length: kept too, up to half of what that share leaves
+  bool exact_times = false;  // CertaintyLevel::exact: toi and toi_hi of every contact are adjacent doubles
 };
 
 // A pair that is not certified free.
@@ -31,6 +33,9 @@ struct PairResult {
                       // none
   double tolerance;   // distance beyond the separation at which it was reported, model length
   Outcome outcome;
+  Certainty certainty = Certainty::within_tolerance;
+  double toi_hi = INFINITY;                                 // where certain: touches by then
+  Certainty limit_certainty = Certainty::within_tolerance;  // of the contact at step_limit
 };
 
 struct NarrowPhaseStats {
@@ -63,6 +68,10 @@ class NarrowPhase {
   void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
             std::vector<IdPair>& out) const;
   bool uses_horizon() const;
+  bool times_are_exact() const { return in_.exact_times && settles_completely(); }
+  // Gives a contact of this pair, found at CertaintyLevel::exact, its exact time: adjacent doubles toi and
+  // toi_hi.
+  void sharpen(PairKind kind, PairResult& result) const;
   const char* kernel_name() const { return kernels_->name; }
 
  private:
@@ -81,10 +90,16 @@ class NarrowPhase {
   Corners corners_of(const Case& c) const;
   double distance_at(const Case& c, double t) const;  // scaled upper bound
   KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
-  void finish(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
+  bool settles() const;  // whether exact arithmetic is asked at all
+  bool settles_completely() const;
+  ExactPair exact_pair(PairKind kind, const int (&vertices)[4]) const;
+  ExactAnswer settle(const Case& c, const KernelResult& found, double from) const;
+  bool seen_within_separation(const Case& c, const KernelResult& found) const;
+  // The pair is apart, or parting, until `from`.
+  void finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
               std::vector<PairResult>& out) const;
   void finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
-                      NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+                      const ExactAnswer& truth, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
   static void report(const PairResult& r, NarrowPhaseStats& stats, std::vector<PairResult>& out);
 
   NarrowPhaseInput in_;

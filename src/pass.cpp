@@ -142,6 +142,8 @@ void limit_step(const Mesh& mesh, const PassResult& pass, StepResult& r) {
   // A pair that parts at the start and is met again later limits the step as a contact.
   r.outcome = limiting.outcome == Outcome::initial_separating ? Outcome::contact : limiting.outcome;
   r.limiting = to_pair(mesh, pass.found[0]);
+  r.certainty = limiting.limit_certainty;
+  if (limiting.outcome != Outcome::initial_separating) r.toi_hi = limiting.toi_hi;
 }
 
 }  // namespace onset

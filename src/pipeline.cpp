@@ -1,6 +1,7 @@
 #include "onset/pipeline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "base/parallel.hpp"
@@ -22,18 +23,33 @@ double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narr
   if (!narrow.uses_horizon()) return 1;
   const PassResult sample = run_pass(*scene.broad, narrow, Keep::limiting, 1, kSampledBlocks);
   if (sample.found.empty()) return 1;
-  const double horizon = sample.found[0].result.step_limit;
+  // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
+  const PairResult& first = sample.found[0].result;
+  const bool exact = narrow.times_are_exact() && first.step_limit < 1;
+  const double horizon = exact ? std::nextafter(first.step_limit, 1) : first.step_limit;
   if (horizon > 0.5) return horizon;
   const double inflation = 0.5 * (options.min_separation + stats.tolerance) * (1 + 0x1p-50);
   scene.broad->refit({mesh.data(), scene.motion, inflation, horizon, BoxTest::motion, options.kernel});
   return horizon;
 }
 
+// The exact times of those that can be the earliest: none of the others is before the least toi_hi.
+void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) {
+  double latest = INFINITY;
+  for (const FoundPair& f : found)
+    if (f.result.outcome != Outcome::initial_separating) latest = std::min(latest, f.result.toi_hi);
+  for (FoundPair& f : found)
+    if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) narrow.sharpen(f.kind, f.result);
+}
+
 PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Stats& stats) {
   const double begun = scene.clock.seconds();
-  const NarrowPhase narrow({mesh.data(), scene.motion, stats.tolerance, stats.extent, options});
+  const bool exact_times = options.certainty == CertaintyLevel::exact && keep != Keep::all;
+  const NarrowPhase narrow(
+      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times});
   const double horizon = keep == Keep::limiting ? shrink_to_horizon(mesh, scene, narrow, options, stats) : 1;
   PassResult pass = run_pass(*scene.broad, narrow, keep, horizon);
+  if (keep == Keep::all) sharpen_earliest(narrow, pass.found);
   copy_counts(pass, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;
   stats.seconds_total = scene.clock.seconds();
@@ -88,6 +104,8 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
       set.toi.push_back(f.result.toi);
       set.step_limit.push_back(f.result.step_limit);
       set.status.push_back(f.result.outcome);
+      set.certainty.push_back(f.result.certainty);
+      set.toi_hi.push_back(f.result.toi_hi);
     }
     if (set.size() > 0) set.outcome = Outcome::contact;
     set.stats.seconds_total = scene.clock.seconds();

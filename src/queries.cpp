@@ -46,7 +46,8 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
     for (const auto& corner : end)
       for (const double x : corner) largest = std::max(largest, std::fabs(x));
   const double extent = largest * corners.unit;
-  const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, extent), extent, options});
+  const bool exact_times = options.certainty == CertaintyLevel::exact;
+  const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, extent), extent, options, 0, 0, exact_times});
   NarrowPhaseScratch scratch;
   std::vector<PairResult> found;
   const IdPair pair = kind == PairKind::vertex_face ? IdPair{0, 0} : IdPair{0, 1};
@@ -57,6 +58,8 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
   r.toi = found[0].toi;
   r.step_limit = found[0].step_limit;
   r.tolerance = found[0].tolerance;
+  r.certainty = found[0].certainty;
+  r.toi_hi = found[0].toi_hi;
   return r;
 }
 

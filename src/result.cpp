@@ -22,6 +22,18 @@ const char* to_string(Outcome outcome) {
   return "unknown";
 }
 
+const char* to_string(Certainty certainty) {
+  switch (certainty) {
+    case Certainty::within_tolerance:
+      return "within_tolerance";
+    case Certainty::certain:
+      return "certain";
+    case Certainty::touching_at_start:
+      return "touching_at_start";
+  }
+  return "unknown";
+}
+
 std::ptrdiff_t ActiveSet::earliest() const {
   std::ptrdiff_t best = -1;
   for (std::size_t i = 0; i < toi.size(); ++i)

@@ -81,6 +81,8 @@ void add_common_options(CLI::App& command, Arguments& a, const std::string& csv_
              "How pairs are decided; inclusion: by the paper's root finder alone");
   add_choice(command, "--kernel", a.kernel, {"auto", "scalar", "avx2"},
              "Instruction set. The result is the same");
+  add_choice(command, "--certainty", a.certainty, {"conservative", "certify", "exact"},
+             "How far to tell real contacts from those within the tolerance; exact: until it is known");
   command.add_option("--json", a.json, "Write the result as JSON to FILE, or to stdout for -")
       ->type_name("FILE");
   command.add_option("--csv", a.csv, "Write CSV to FILE, or to stdout for -: " + csv_columns)
@@ -95,6 +97,10 @@ onset::Options to_options(const Arguments& a) {
       {"brute", onset::BroadPhaseMethod::brute}};
   static const std::map<std::string, onset::Kernel> kernels = {
       {"auto", onset::Kernel::automatic}, {"scalar", onset::Kernel::scalar}, {"avx2", onset::Kernel::avx2}};
+  static const std::map<std::string, onset::CertaintyLevel> levels = {
+      {"conservative", onset::CertaintyLevel::conservative},
+      {"certify", onset::CertaintyLevel::certify},
+      {"exact", onset::CertaintyLevel::exact}};
   if (!a.json.empty() && a.json == a.csv) throw UsageError("--json and --csv cannot both go to " + a.json);
   onset::Options o = a.options;
   o.norm = a.norm == "maximum" ? onset::Norm::maximum : onset::Norm::euclidean;
@@ -102,6 +108,7 @@ onset::Options to_options(const Arguments& a) {
   o.narrow_phase = a.narrow_phase == "inclusion" ? onset::NarrowPhaseMethod::inclusion
                                                  : onset::NarrowPhaseMethod::automatic;
   o.kernel = kernels.at(a.kernel);
+  o.certainty = levels.at(a.certainty);
   return o;
 }
 

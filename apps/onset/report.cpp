@@ -1,5 +1,7 @@
 #include "report.hpp"
 
+#include <cmath>
+
 namespace app {
 
 const char* kind_name(onset::PairKind kind) { return kind == onset::PairKind::vertex_face ? "vf" : "ee"; }
@@ -34,10 +36,17 @@ Json seconds_json(const onset::Stats& s) {
   return {{"broad", s.seconds_broad}, {"narrow", s.seconds_narrow}, {"total", s.seconds_total}};
 }
 
+// toi_hi is null where no contact is certain by any time.
+static void add_certainty(Json& json, onset::Certainty certainty, double toi_hi) {
+  json["certainty"] = onset::to_string(certainty);
+  json["toi_hi"] = std::isfinite(toi_hi) ? Json(toi_hi) : Json();
+}
+
 Json step_json(const onset::StepResult& r) {
   Json json = {{"outcome", onset::to_string(r.outcome)}, {"step", r.step},
                {"limiting", to_json(r.limiting)},        {"candidates", to_json(r.stats.candidates)},
                {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance}};
+  if (r.limiting.a >= 0) add_certainty(json["limiting"], r.certainty, r.toi_hi);
   if (r.vertex >= 0) json["vertex"] = r.vertex;
   json["stats"] = to_json(r.stats);
   return json;
@@ -50,6 +59,7 @@ Json active_set_json(const onset::ActiveSet& set) {
     pair = to_json(set.pair(std::size_t(first)));
     pair["toi"] = set.toi[std::size_t(first)];
     pair["status"] = onset::to_string(set.status[std::size_t(first)]);
+    add_certainty(pair, set.certainty[std::size_t(first)], set.toi_hi[std::size_t(first)]);
   }
   Json json = {{"contacts", to_json(set.stats.contacts)},
                {"earliest", first < 0 ? Json() : Json(set.toi[std::size_t(first)])},
@@ -64,11 +74,12 @@ Json active_set_json(const onset::ActiveSet& set) {
 }
 
 void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
-  csv.write("kind,a,b,toi,v0,v1,v2,v3,status\n");
+  csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi\n");
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto& v = set.vertices[i];
-    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s\n", kind_name(set.kind[i]), set.a[i], set.b[i],
-                     set.toi[i], v[0], v[1], v[2], v[3], onset::to_string(set.status[i])));
+    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g\n", kind_name(set.kind[i]), set.a[i], set.b[i],
+                     set.toi[i], v[0], v[1], v[2], v[3], onset::to_string(set.status[i]),
+                     onset::to_string(set.certainty[i]), set.toi_hi[i]));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <onset/export.hpp>
@@ -24,6 +25,14 @@ enum class Outcome : std::uint8_t {
   out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
 };
 ONSET_API const char* to_string(Outcome outcome);
+
+// What is known about a contact beyond "not certified free".
+enum class Certainty : std::uint8_t {
+  within_tolerance,   // undecided: real, or a miss by less than the tolerance
+  certain,            // the primitives do touch (come as close as the separation), at the latest at toi_hi
+  touching_at_start,  // the same, and already at t = 0
+};
+ONSET_API const char* to_string(Certainty certainty);
 
 // One pair of primitives. vertex_face: a is the vertex, b the face. edge_edge: a < b are edges.
 struct Pair {
@@ -65,6 +74,11 @@ struct StepResult {
   Outcome outcome = Outcome::free;
   Pair limiting;    // the pair that limits the step (a = -1 where none does)
   int vertex = -1;  // the offending vertex of non_finite and out_of_range
+  // Of the limiting pair. CertaintyLevel::exact, separation 0: the earliest contact is between step and toi_hi,
+  // which are adjacent doubles or the same one (not after initial_separating, whose next contact is only as certain as
+  // `certainty` says, and toi_hi infinite).
+  Certainty certainty = Certainty::within_tolerance;
+  double toi_hi = INFINITY;
   Stats stats;
 };
 
@@ -77,6 +91,9 @@ struct ActiveSet {
   std::vector<double>
       step_limit;  // how far the pair lets a step go: toi; initial_separating: the next contact, 1 if none
   std::vector<Outcome> status;  // contact, initial_contact, initial_separating or budget
+  std::vector<Certainty> certainty;
+  std::vector<double> toi_hi;  // where certain: the pair has touched by then; else infinite. CertaintyLevel::exact,
+                               // separation 0: of the earliest contact, the double after toi or toi itself
   Outcome outcome =
       Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is empty
   int vertex = -1;
@@ -94,6 +111,9 @@ struct QueryResult {
   double step_limit =
       1;  // how far the pair lets a step go: toi; initial_separating: the next contact, 1 if none
   double tolerance = 0;  // distance beyond the separation at which the pair was reported
+  // As in ActiveSet. CertaintyLevel::exact, separation 0: toi and toi_hi are adjacent doubles or the same one.
+  Certainty certainty = Certainty::within_tolerance;
+  double toi_hi = INFINITY;
   std::int64_t checks = 0;
   bool collides() const { return outcome != Outcome::free; }
 };

@@ -1,0 +1,59 @@
+// The narrow phase asks exact arithmetic, or looks for a witness, whether a pair that is not certified free
+// is a contact.
+#include "narrowphase/narrow_phase.hpp"
+
+namespace onset {
+
+// A share of the gap to keep is a separation, and those are compared in doubles.
+bool NarrowPhase::settles() const {
+  return in_.options.certainty != CertaintyLevel::conservative && in_.keep == 0 && in_.rounding == 0 &&
+         in_.options.min_separation == 0 && in_.mesh.thickness.empty();
+}
+bool NarrowPhase::settles_completely() const {
+  return settles() && in_.options.certainty == CertaintyLevel::exact;
+}
+
+ExactPair NarrowPhase::exact_pair(PairKind kind, const int (&vertices)[4]) const {
+  ExactPair r{kind, {}, {}};
+  for (int i = 0; i < 4; ++i) r.t0[i] = in_.motion.t0(vertices[i]), r.t1[i] = in_.motion.t1(vertices[i]);
+  return r;
+}
+
+// unknown: not asked, or too dear. Contacts before `from` > 0 do not count.
+ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double from) const {
+  if (!settles()) return {Answer::unknown, {}};
+  const bool complete = settles_completely();
+  const ExactPair pair = exact_pair(c.kind, c.input.vertices[c.row]);
+  if (from > 0) {
+    if (!complete) return {Answer::unknown, {}};
+    return {exactly_touches(pair, from) ? Answer::yes : Answer::no, {from, INFINITY}};
+  }
+  const ExactAnswer r = exact_answer(pair, complete ? Effort::complete : Effort::quick);
+  // A start that is apart needs its own toi > 0.
+  const bool wants_time = in_.exact_times || found.verdict != Verdict::contact;
+  if (r.answer != Answer::yes || !wants_time || r.time.lo == r.time.hi) return r;
+  return {Answer::yes, *exact_first_contact(pair)};
+}
+
+void NarrowPhase::sharpen(PairKind kind, PairResult& result) const {
+  if (!settles_completely()) return;
+  const std::array<int, 4> v = pair_vertices(in_.mesh, kind, result.pair);
+  const int vertices[4] = {v[0], v[1], v[2], v[3]};
+  const auto time = exact_first_contact(exact_pair(kind, vertices));
+  if (!time) return;
+  if (result.outcome == Outcome::contact) result.toi = result.step_limit = time->lo;
+  result.toi_hi = time->hi;
+}
+
+// Whether a point of each primitive is known, at a time from found.t on, that are no farther apart than the
+// separation.
+bool NarrowPhase::seen_within_separation(const Case& c, const KernelResult& found) const {
+  if (in_.options.certainty != CertaintyLevel::exact) return false;
+  const double d = c.input.separation[c.row] / found.unit;
+  if (d == 0) return false;
+  for (double ahead = 0x1p-20; ahead <= 1; ahead *= 4)
+    if (distance_at(c, found.t + ahead * (1 - found.t)) <= d) return true;
+  return false;
+}
+
+}  // namespace onset
