@@ -35,6 +35,10 @@ Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t
 // Checks the positions already stored in m.x and brings the axes into canonical order.
 void finish_motion(Motion& m);
 
+// Model length: bound on how much a distance at x_t0 + s (x_t1 - x_t0) changes when that is stored in doubles
+// as x_t0 + s dx, with x_t1 = x_t0 + dx rounded.
+double rounding_of_distances(const Motion& m);
+
 // Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j|
 // (edge-edge) that a pair with overlapping swept boxes can have (each side of the pair spans its swept
 // extent, and the boxes are at most `gap` apart): R <= w(A) + w(B) + gap.

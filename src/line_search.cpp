@@ -2,63 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <sstream>
 #include <stdexcept>
 
 #include "base/parallel.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "src/checked_options.hpp"
+#include "src/close_set.hpp"
+#include "src/held_pairs.hpp"
 #include "src/pass.hpp"
 #include "src/scene.hpp"
 
 namespace onset {
 namespace {
-
-// Pairs found once, streamed again for every step size: a source that only remembers.
-class HeldPairs final : public PairSource {
- public:
-  std::size_t blocks(PairKind kind) const override { return (of(kind).size() + kBatchSize - 1) / kBatchSize; }
-  void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
-    for (std::size_t block = first; block < last; ++block) {
-      const std::size_t begin = block * kBatchSize, end = std::min(begin + kBatchSize, of(kind).size());
-      sink(of(kind).data() + begin, end - begin);
-    }
-  }
-  const std::vector<IdPair>& of(PairKind kind) const {
-    return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_;
-  }
-
-  // Keeps what the culls of `narrow` cannot certify, in the order of ids.
-  void fill(const BroadPhase& broad, const NarrowPhase& narrow) {
-    for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
-      std::vector<IdPair>& held = kind == PairKind::vertex_face ? vertex_face_ : edge_edge_;
-      std::mutex mutex;
-      parallel_ranges(broad.blocks(kind), 16, [&](std::size_t first, std::size_t last) {
-        Task task{narrow, kind, {}, {}};
-        broad.traverse(kind, first, last, {&task, &Task::consume});
-        const std::lock_guard<std::mutex> lock(mutex);
-        held.insert(held.end(), task.kept.begin(), task.kept.end());
-      });
-      parallel_sort(held.begin(), held.end(),
-                    [](const IdPair& p, const IdPair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
-      held.shrink_to_fit();
-    }
-  }
-
- private:
-  struct Task {
-    const NarrowPhase& narrow;
-    PairKind kind;
-    NarrowPhaseScratch scratch;
-    std::vector<IdPair> kept;
-    static void consume(void* context, const IdPair* pairs, std::size_t count) {
-      auto& task = *static_cast<Task*>(context);
-      task.narrow.cull(task.kind, pairs, count, task.scratch, task.kept);
-    }
-  };
-  std::vector<IdPair> vertex_face_, edge_edge_;
-};
 
 std::vector<double> sum(const Positions& x, const Positions& dx) {
   if (x.rows() != dx.rows() || dx.cols() != 3) {
@@ -73,16 +29,9 @@ std::vector<double> sum(const Positions& x, const Positions& dx) {
   return r;
 }
 
-// Storing x_t0 + step dx rounds: fl(x + fl(s dx)) errs per coordinate by u |s dx| + u |x_new|, and x_t1 =
-// fl(x + dx), on which the certificates stand, by u |x_t1|: below 4u M in all with M the largest coordinate
-// (|dx| <= 2M). A distance changes by at most sqrt(3) times that at each of its two points: 8 sqrt(3) u M <
-// 14u M.
-double rounding_of_distances(const Motion& motion) {
-  double largest = 0;
-  for (int v = 0; v < motion.num_vertices; ++v)
-    for (const double* x : {motion.t0(v), motion.t1(v)})
-      for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x[a]));
-  return 14 * 0x1p-53 * largest;
+void check_step(const char* name, double step) {
+  if (!(step >= 0 && step <= 1))
+    throw std::invalid_argument(std::string(name) + " is " + std::to_string(step) + "; it must be in [0, 1]");
 }
 
 }  // namespace
@@ -90,32 +39,62 @@ double rounding_of_distances(const Motion& motion) {
 struct LineSearch::Held {
   Mesh mesh;
   Options options;
-  double keep, rounding = 0;
+  double keep, d_hat, rounding = 0;
   std::unique_ptr<Scene> scene;  // its motion; the tree goes once the pairs are held
+  std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
   StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
-  HeldPairs pairs;
+  HeldPairs pairs, near;         // that may limit a step; that may come within d_hat on the way
 
   NarrowPhaseInput input() const {
     return {mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, options, keep, rounding};
   }
+  void fill();
+  std::vector<double> at(double step) const;
 };
 
+// Beyond reach for the whole of the exact motion, a pair is beyond d_hat wherever the line search stops, in
+// stored doubles too.
+void LineSearch::Held::fill() {
+  const NarrowPhase narrow(input());
+  std::vector<Holder> holders{{narrow, pairs}};
+  if (d_hat == 0) return hold(*scene->broad, holders);
+  Options beyond = options;
+  beyond.min_separation = euclidean_reach(mesh.data(), options, d_hat, rounding);
+  beyond.norm = Norm::euclidean;
+  const NarrowPhase far(
+      {mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, beyond, 0, 0});
+  holders.push_back({far, near});
+  hold(*scene->broad, holders);
+}
+
+// The positions that x_t0 + step dx rounds to, 4 doubles a vertex, in the motion's order of axes.
+std::vector<double> LineSearch::Held::at(double step) const {
+  const Motion& m = scene->motion;
+  std::vector<double> x(std::size_t(m.num_vertices) * 4);
+  for (int v = 0; v < m.num_vertices; ++v)
+    for (std::size_t a = 0; a < 3; ++a)
+      x[4 * std::size_t(v) + a] = m.t0(v)[a] + step * dx[3 * std::size_t(v) + std::size_t(m.axes[a])];
+  return x;
+}
+
 LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const Options& options,
-                       double keep)
-    : held_(new Held{mesh, options, keep, 0, {}, {}, {}}) {
+                       double keep, double d_hat)
+    : held_(new Held{mesh, options, keep, d_hat, 0, {}, {}, {}, {}, {}}) {
   check(options);
+  check_d_hat(d_hat, true);
   if (!(keep >= 0 && keep < 1))
     throw std::invalid_argument("keep is " + std::to_string(keep) + "; it must be in [0, 1)");
   const std::vector<double> x_t1 = sum(x_t0, dx);
   Held& h = *held_;
+  for (std::ptrdiff_t i = 0; d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
   in_arena(options.threads, [&] {
     const Positions end(x_t1.data(), x_t0.rows());
-    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, BoxTest::motion, h.start.stats);
+    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, BoxTest::motion, h.start.stats, d_hat);
     h.start.outcome = h.scene->motion.status;
     h.start.vertex = h.scene->motion.bad_vertex;
     if (h.start.outcome != Outcome::free) return;
     h.rounding = rounding_of_distances(h.scene->motion);
-    h.pairs.fill(*h.scene->broad, NarrowPhase(h.input()));
+    h.fill();
     h.scene->broad.reset();
   });
 }
@@ -123,14 +102,11 @@ LineSearch::~LineSearch() = default;
 LineSearch::LineSearch(LineSearch&&) noexcept = default;
 LineSearch& LineSearch::operator=(LineSearch&&) noexcept = default;
 
-PairCounts LineSearch::candidates() const {
-  return {std::int64_t(held_->pairs.of(PairKind::vertex_face).size()),
-          std::int64_t(held_->pairs.of(PairKind::edge_edge).size())};
-}
+PairCounts LineSearch::candidates() const { return held_->pairs.counts(); }
+PairCounts LineSearch::close_candidates() const { return held_->near.counts(); }
 
 LineSearchStep LineSearch::largest_step(double upper) const {
-  if (!(upper >= 0 && upper <= 1))
-    throw std::invalid_argument("upper is " + std::to_string(upper) + "; it must be in [0, 1]");
+  check_step("upper", upper);
   const Held& h = *held_;
   LineSearchStep r;
   r.result = h.start;
@@ -157,6 +133,24 @@ LineSearchStep LineSearch::largest_step(double upper) const {
     r.result.outcome = Outcome::free;
     r.result.limiting = Pair{};
   }
+  return r;
+}
+
+ClosePairs LineSearch::close_pairs(double step) const {
+  check_step("step", step);
+  const Held& h = *held_;
+  if (h.d_hat == 0) throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
+  ClosePairs r;
+  r.d_hat = h.d_hat;
+  r.outcome = h.start.outcome;
+  r.vertex = h.start.vertex;
+  if (r.outcome != Outcome::free) return r;
+  in_arena(h.options.threads, [&] {
+    const Clock clock;
+    const std::vector<double> x = h.at(step);
+    r.pairs = find_close(h.near, {h.mesh, x.data(), h.d_hat, h.rounding, h.options});
+    r.seconds = clock.seconds();
+  });
   return r;
 }
 

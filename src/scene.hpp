@@ -14,9 +14,10 @@ struct Scene {
   std::unique_ptr<BroadPhase> broad;  // empty where the motion is not usable (motion.status)
   Clock clock;
 
-  // Fills the statistics that are known before any pair is.
+  // Fills the statistics that are known before any pair is. d_hat >= 0: boxes reach as far as pairs of a
+  // distance set of d_hat, and at least of the tolerance, can be apart, positions rounded to doubles included.
   Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, BoxTest test,
-        Stats& stats);
+        Stats& stats, double d_hat = -1);
 };
 
 }  // namespace onset

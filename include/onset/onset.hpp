@@ -1,6 +1,7 @@
 // Everything a simulator includes.
 #pragma once
 
+#include <onset/close_pairs.hpp>
 #include <onset/line_search.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>

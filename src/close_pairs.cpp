@@ -1,0 +1,31 @@
+#include "onset/close_pairs.hpp"
+
+#include "base/parallel.hpp"
+#include "src/checked_options.hpp"
+#include "src/close_set.hpp"
+#include "src/scene.hpp"
+
+namespace onset {
+
+ClosePairs close_pairs(const Mesh& mesh, const Positions& x, double d_hat, const Options& options) {
+  check(options);
+  check_d_hat(d_hat, false);
+  ClosePairs r;
+  r.d_hat = d_hat;
+  in_arena(options.threads, [&] {
+    Stats stats;
+    const Scene scene(mesh, x, x, options, BoxTest::motion, stats, d_hat);
+    r.outcome = scene.motion.status;
+    r.vertex = scene.motion.bad_vertex;
+    if (r.outcome != Outcome::free) return;
+    static_assert(kMotionStride == 8, "a vertex's two ends are four doubles each");
+    std::vector<double> at(std::size_t(mesh.num_vertices()) * 4);
+    for (int v = 0; v < scene.motion.num_vertices; ++v)
+      for (int a = 0; a < 3; ++a) at[std::size_t(4 * v + a)] = scene.motion.t0(v)[a];
+    r.pairs = find_close(*scene.broad, {mesh, at.data(), d_hat, 0, options});
+    r.seconds = scene.clock.seconds();
+  });
+  return r;
+}
+
+}  // namespace onset

@@ -1,0 +1,99 @@
+#include "src/close_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+
+#include "base/motion.hpp"
+#include "base/parallel.hpp"
+#include "narrowphase/closest_points.hpp"
+#include "narrowphase/narrow_phase.hpp"
+
+namespace onset {
+namespace {
+
+// |w|_2 <= sqrt(3) |w|_inf, rounded up: beyond this the separation holds in either norm.
+double norm_ratio(const Options& options) { return options.norm == Norm::maximum ? 0x1.bb67ae8584cabp+0 : 1; }
+
+double thickest(const MeshData& mesh, const int* first, const int* last) {
+  double r = 0;
+  for (; first != last && !mesh.thickness.empty(); ++first)
+    r = std::max(r, mesh.thickness[std::size_t(*first)]);
+  return r;
+}
+
+// Rounded up, exact where there is nothing to add.
+double separation_of(const CloseInput& in, const Pair& pair) {
+  const int* v = pair.vertices.data();
+  const int side = pair.kind == PairKind::vertex_face ? 1 : 2;
+  const double thickness = thickest(in.mesh.data(), v, v + side) + thickest(in.mesh.data(), v + side, v + 4);
+  const double ratio = norm_ratio(in.options);
+  if (ratio == 1 && thickness == 0) return in.options.min_separation;
+  return ratio * (in.options.min_separation + thickness) * (1 + 0x1p-50);
+}
+
+struct Task {
+  const CloseInput& in;
+  PairKind kind;
+  std::vector<ClosePair> close;
+
+  // fl(lower - separation) <= d_hat + slack, rounded up, holds wherever the exact distance is below d_hat
+  // plus the separation: `lower` is no larger, and rounding is monotonic.
+  void look(IdPair ids) {
+    ClosePair p;
+    static_cast<Pair&>(p) = {kind, ids.a, ids.b, pair_vertices(in.mesh.data(), kind, ids)};
+    const double* x[4];
+    for (std::size_t i = 0; i < 4; ++i) x[i] = in.x + 4 * std::size_t(p.vertices[i]);
+    const ClosestPoints at = closest_points(kind, x);
+    p.separation = separation_of(in, p);
+    const double gap = at.lower - p.separation;
+    if (gap > (in.d_hat + in.slack) * (1 + 0x1p-52)) return;
+    std::copy(at.weights, at.weights + 4, p.weights.begin());
+    p.distance = at.distance;
+    p.gap = std::max(0.0, gap * (1 - 0x1p-52));
+    close.push_back(p);
+  }
+  static void consume(void* context, const IdPair* pairs, std::size_t count) {
+    auto& task = *static_cast<Task*>(context);
+    for (std::size_t i = 0; i < count; ++i) task.look(pairs[i]);
+  }
+};
+
+}  // namespace
+
+void check_d_hat(double d_hat, bool zero_allowed) {
+  if ((zero_allowed ? d_hat >= 0 : d_hat > 0) && d_hat <= kMaxCoordinate) return;
+  std::ostringstream s;
+  s << "d_hat is " << d_hat << "; it must be a number " << (zero_allowed ? ">= 0" : "> 0")
+    << ", at most 2^1020";
+  throw std::invalid_argument(s.str());
+}
+
+double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding) {
+  double thickness = 0;
+  if (!mesh.thickness.empty()) thickness = *std::max_element(mesh.thickness.begin(), mesh.thickness.end());
+  const double ratio = norm_ratio(options);  // thickness itself is added where a pair is looked at
+  const double separation = ratio * options.min_separation + (ratio - 1) * 2 * thickness;
+  return (separation + d_hat + rounding) * (1 + 0x1p-48);
+}
+
+std::vector<ClosePair> find_close(const PairSource& candidates, const CloseInput& input) {
+  std::vector<ClosePair> all;
+  std::mutex mutex;
+  for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
+    parallel_ranges(candidates.blocks(kind), 4, [&](std::size_t first, std::size_t last) {
+      Task task{input, kind, {}};
+      candidates.traverse(kind, first, last, {&task, &Task::consume});
+      const std::lock_guard<std::mutex> lock(mutex);
+      all.insert(all.end(), task.close.begin(), task.close.end());
+    });
+  parallel_sort(all.begin(), all.end(), [](const ClosePair& p, const ClosePair& q) {
+    return std::tie(p.kind, p.a, p.b) < std::tie(q.kind, q.a, q.b);
+  });
+  return all;
+}
+
+}  // namespace onset

@@ -1,0 +1,56 @@
+#include "src/held_pairs.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include "base/parallel.hpp"
+
+namespace onset {
+namespace {
+
+struct Task {
+  PairKind kind;
+  const std::vector<Holder>& holders;
+  NarrowPhaseScratch scratch;
+  std::vector<std::vector<IdPair>> kept;
+
+  static void consume(void* context, const IdPair* pairs, std::size_t count) {
+    auto& task = *static_cast<Task*>(context);
+    for (std::size_t i = 0; i < task.holders.size(); ++i)
+      task.holders[i].narrow.cull(task.kind, pairs, count, task.scratch, task.kept[i]);
+  }
+};
+
+}  // namespace
+
+std::size_t HeldPairs::blocks(PairKind kind) const { return (of(kind).size() + kBatchSize - 1) / kBatchSize; }
+
+void HeldPairs::traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const {
+  for (std::size_t block = first; block < last; ++block) {
+    const std::size_t begin = block * kBatchSize, end = std::min(begin + kBatchSize, of(kind).size());
+    sink(of(kind).data() + begin, end - begin);
+  }
+}
+
+void hold(const PairSource& broad, const std::vector<Holder>& holders) {
+  for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
+    std::mutex mutex;
+    parallel_ranges(broad.blocks(kind), 16, [&](std::size_t first, std::size_t last) {
+      Task task{kind, holders, {}, std::vector<std::vector<IdPair>>(holders.size())};
+      broad.traverse(kind, first, last, {&task, &Task::consume});
+      const std::lock_guard<std::mutex> lock(mutex);
+      for (std::size_t i = 0; i < holders.size(); ++i) {
+        std::vector<IdPair>& held = holders[i].held.of(kind);
+        held.insert(held.end(), task.kept[i].begin(), task.kept[i].end());
+      }
+    });
+    for (const Holder& holder : holders) {
+      std::vector<IdPair>& held = holder.held.of(kind);
+      parallel_sort(held.begin(), held.end(),
+                    [](const IdPair& p, const IdPair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+      held.shrink_to_fit();
+    }
+  }
+}
+
+}  // namespace onset
