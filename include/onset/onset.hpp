@@ -8,4 +8,5 @@
 #include <onset/pipeline.hpp>
 #include <onset/query.hpp>
 #include <onset/result.hpp>
+#include <onset/safe_distance.hpp>
 #include <onset/views.hpp>

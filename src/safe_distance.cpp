@@ -1,0 +1,109 @@
+#include "onset/safe_distance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "base/parallel.hpp"
+#include "src/checked_options.hpp"
+#include "src/clock.hpp"
+#include "src/held_pairs.hpp"
+#include "src/pass.hpp"
+
+namespace onset {
+namespace {
+
+void check_rows(const char* name, const Positions& x, std::ptrdiff_t rows) {
+  if (x.cols() != 3 || x.rows() != rows)
+    throw std::invalid_argument(std::string(name) + " has " + std::to_string(x.rows()) + " rows of " +
+                                std::to_string(x.cols()) + " coordinates, not " + std::to_string(rows) +
+                                " rows of 3");
+}
+
+void check_close(const Mesh& mesh, const ClosePairs& close) {
+  if (close.outcome != Outcome::free)
+    throw std::invalid_argument(std::string("the close pairs have the outcome ") + to_string(close.outcome));
+  if (!(close.d_hat > 0)) throw std::invalid_argument("the close pairs have no d_hat");
+  const auto is_of_mesh = [&](const ClosePair& p) {
+    const bool face = p.kind == PairKind::vertex_face;
+    const std::ptrdiff_t a = face ? mesh.num_vertices() : mesh.num_edges(),
+                         b = face ? mesh.num_faces() : mesh.num_edges();
+    return p.a >= 0 && p.a < a && p.b >= 0 && p.b < b &&
+           p.vertices == pair_vertices(mesh.data(), p.kind, {p.a, p.b});
+  };
+  for (std::size_t i = 0; i < close.size(); ++i)
+    if (!is_of_mesh(close.pairs[i]))
+      throw std::invalid_argument("close pair " + std::to_string(i) + " is not a pair of this mesh");
+}
+
+double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0), dx(v, 1), dx(v, 2)); }
+
+}  // namespace
+
+// fl(x + fl(s dx)) errs per coordinate by u |s dx| + u |x + s dx| (1 + u), as a vector by less than 1.8u (M +
+// 2r) with M the largest coordinate and 2r < d_hat: 2^-52 (M + d_hat) covers it. Relative errors of computed
+// norms and products are a few u; 1 - 2^-48 covers them and makes the bound strict.
+std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close) {
+  check_rows("x", x, mesh.num_vertices());
+  check_close(mesh, close);
+  std::vector<double> r(std::size_t(mesh.num_vertices()), close.d_hat);
+  for (const ClosePair& p : close)
+    for (const int v : p.vertices) r[std::size_t(v)] = std::min(r[std::size_t(v)], p.gap);
+  double largest = close.d_hat;
+  for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
+    for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x(v, a)));
+  const double rounding = 0x1p-51 * largest;  // >= 2^-52 (M + d_hat)
+  for (double& of_vertex : r)
+    of_vertex = std::max(0.0, (0.5 * of_vertex * (1 - 0x1p-48) - rounding) * (1 - 0x1p-52));
+  return r;
+}
+
+double safe_step(const std::vector<double>& r, const Positions& dx) {
+  check_rows("dx", dx, std::ptrdiff_t(r.size()));
+  double step = 1;
+  for (std::ptrdiff_t v = 0; v < dx.rows(); ++v) {
+    const double moved = length(dx, v);
+    if (!std::isfinite(moved)) return 0;
+    if (moved > r[std::size_t(v)]) step = std::min(step, r[std::size_t(v)] / moved * (1 - 0x1p-48));
+  }
+  return step;
+}
+
+StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                                const ClosePairs& close, const Options& options) {
+  check(options);
+  check_close(mesh, close);
+  StepResult r;
+  in_arena(options.threads, [&] {
+    const Clock clock;
+    const Motion motion = make_motion(mesh.data().num_vertices, x_t0, x_t1);
+    r.outcome = motion.status;
+    r.vertex = motion.bad_vertex;
+    if (r.outcome != Outcome::free) return;
+    const double gap = largest_separation(mesh.data(), options);
+    describe_accuracy(motion, corner_extents(mesh.data(), motion, gap), options, r.stats);
+    HeldPairs held;
+    for (const ClosePair& p : close) held.of(p.kind).push_back({p.a, p.b});
+    const NarrowPhase narrow({mesh.data(), motion, r.stats.tolerance, r.stats.extent, options});
+    const PassResult pass = run_pass(held, narrow, Keep::limiting, 1);
+    copy_counts(pass, r.stats);
+    limit_step(mesh, pass, r);
+    double moved = 0;
+    for (int v = 0; v < motion.num_vertices; ++v) {
+      const double *a = motion.t0(v), *b = motion.t1(v);
+      moved = std::max(moved, std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+    }
+    const double bound =
+        std::max(0.0, close.d_hat - rounding_of_distances(motion)) / (2 * moved) * (1 - 0x1p-48);
+    if (moved > 0 && bound < r.step) {
+      r.step = bound;
+      r.outcome = Outcome::free;
+      r.limiting = Pair{};
+    }
+    r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
+  });
+  return r;
+}
+
+}  // namespace onset
