@@ -1,0 +1,58 @@
+#include "intersections.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+
+namespace cloth {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Points = std::vector<Kernel::Point_3>;
+using Face = std::array<int, 3>;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
+
+// The face with the vertices that `other` has too in front; their number.
+int shared_first(Face& face, const Face& other) {
+  const auto shared = [&](int v) { return std::find(other.begin(), other.end(), v) != other.end(); };
+  return int(std::stable_partition(face.begin(), face.end(), shared) - face.begin());
+}
+
+bool meet(const Points& p, Face f, Face g) {
+  const Face original = f;
+  const int shared = shared_first(f, g);
+  shared_first(g, original);
+  const auto point = [&](int v) { return p[std::size_t(v)]; };
+  const auto triangle = [&](const Face& t) {
+    return Kernel::Triangle_3(point(t[0]), point(t[1]), point(t[2]));
+  };
+  if (shared == 0) return CGAL::do_intersect(triangle(f), triangle(g));
+  if (shared == 1)  // beyond the shared vertex they meet only where an opposite edge meets the other face
+    return CGAL::do_intersect(Kernel::Segment_3(point(f[1]), point(f[2])), triangle(g)) ||
+           CGAL::do_intersect(Kernel::Segment_3(point(g[1]), point(g[2])), triangle(f));
+  // Beyond a shared edge they meet only where one is folded flat onto the other.
+  return shared == 3 ||
+         (CGAL::coplanar(point(f[0]), point(f[1]), point(f[2]), point(g[2])) &&
+          CGAL::coplanar_orientation(point(f[0]), point(f[1]), point(f[2]), point(g[2])) == CGAL::POSITIVE);
+}
+
+}  // namespace
+
+bool intersects_itself(const Vector& x, const std::vector<Face>& faces) {
+  Points points;
+  for (Eigen::Index v = 0; v < x.size(); v += 3) points.emplace_back(x[v], x[v + 1], x[v + 2]);
+  std::vector<Box> boxes;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    CGAL::Bbox_3 box;
+    for (const int v : faces[f]) box += points[std::size_t(v)].bbox();
+    boxes.emplace_back(box, int(f));
+  }
+  bool found = false;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+    found = found || meet(points, faces[std::size_t(a.info())], faces[std::size_t(b.info())]);
+  });
+  return found;
+}
+
+}  // namespace cloth

@@ -1,0 +1,14 @@
+// Whether a mesh intersects itself, decided by exact predicates that know nothing of the library under test.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "system.hpp"
+
+namespace cloth {
+
+// Any two faces that meet anywhere but in a shared vertex or edge.
+bool intersects_itself(const Vector& x, const std::vector<std::array<int, 3>>& faces);
+
+}  // namespace cloth
