@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
+#include "narrowphase/contact_frame.hpp"
 #include "src/checked_options.hpp"
 #include "src/pass.hpp"
 #include "src/scene.hpp"
@@ -86,6 +87,25 @@ bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Posit
   return r.outcome == Outcome::free;
 }
 
+namespace {
+
+// Last, and only for what is reported: a few hundred instructions a row.
+void add_frames(const Motion& motion, ActiveSet& set) {
+  const std::size_t rows = set.size();
+  set.weight.resize(rows), set.normal.resize(rows), set.gap.resize(rows), set.speed.resize(rows);
+  set.degenerate.resize(rows);
+  parallel_ranges(rows, 512, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const bool parting = set.status[i] == Outcome::initial_separating;
+      const ContactFrame f = contact_frame(set.kind[i], motion, set.vertices[i], set.toi[i], parting);
+      set.weight[i] = f.weight, set.normal[i] = f.normal, set.gap[i] = f.gap, set.speed[i] = f.speed;
+      set.degenerate[i] = f.degenerate;
+    }
+  });
+}
+
+}  // namespace
+
 ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                const Options& options) {
   check(options);
@@ -107,6 +127,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
       set.certainty.push_back(f.result.certainty);
       set.toi_hi.push_back(f.result.toi_hi);
     }
+    add_frames(scene.motion, set);
     if (set.size() > 0) set.outcome = Outcome::contact;
     set.stats.seconds_total = scene.clock.seconds();
   });

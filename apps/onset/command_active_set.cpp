@@ -27,7 +27,9 @@ std::string summary(const onset::ActiveSet& set) {
 void add_active_set(CLI::App& app, Run& run) {
   add_scene_command(
       app, run, "active-set", "Every pair that comes into contact between A and B, with its time of impact",
-      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi (vf: vertex and face; ee: edges in the order of igl::edges)",
+      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate (vf: vertex and face; "
+      "ee: edges in the order of igl::edges; w: weights of the vertices at the contact point; n: unit normal; speed < 0 "
+      "closes)",
       [](const Scene& scene, const onset::Options& options, Outputs& outputs) {
         const onset::ActiveSet set = compute(scene, options);
         if (outputs.csv()) write_active_set_csv(*outputs.csv(), set);

@@ -74,12 +74,17 @@ Json active_set_json(const onset::ActiveSet& set) {
 }
 
 void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
-  csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi\n");
+  csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate\n");
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto& v = set.vertices[i];
-    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g\n", kind_name(set.kind[i]), set.a[i], set.b[i],
-                     set.toi[i], v[0], v[1], v[2], v[3], onset::to_string(set.status[i]),
-                     onset::to_string(set.certainty[i]), set.toi_hi[i]));
+    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(set.kind[i]), set.a[i], set.b[i], set.toi[i],
+                     v[0], v[1], v[2], v[3], onset::to_string(set.status[i]), onset::to_string(set.certainty[i]),
+                     set.toi_hi[i]));
+    const auto& w = set.weight[i];
+    const auto& n = set.normal[i];
+    for (const double x : {w[0], w[1], w[2], w[3], n[0], n[1], n[2], set.gap[i], set.speed[i]})
+      csv.write(format(",%.17g", x));
+    csv.write(format(",%d\n", int(set.degenerate[i])));
   }
 }
 

@@ -16,7 +16,9 @@ Json seconds_json(const onset::Stats& stats);  // {broad, narrow, total}
 Json step_json(const onset::StepResult& result);
 Json active_set_json(const onset::ActiveSet& set);
 
-void write_active_set_csv(Output& csv, const onset::ActiveSet& set);  // kind,a,b,toi,v0,v1,v2,v3,status
+// kind,a,b,toi,v0,v1,v2,v3,status, then the contact's weights, normal, gap, speed and whether it is
+// degenerate
+void write_active_set_csv(Output& csv, const onset::ActiveSet& set);
 
 std::string describe(const onset::Pair& pair);  // "vertex 3 and face 7 (vertices 3; 1 2 9)"
 std::string describe(const onset::PairCounts& counts);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <onset/close_pairs.hpp>
+#include <onset/constraints.hpp>
 #include <onset/line_search.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>

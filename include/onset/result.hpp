@@ -94,6 +94,19 @@ struct ActiveSet {
   std::vector<Certainty> certainty;
   std::vector<double> toi_hi;  // where certain: the pair has touched by then; else infinite. CertaintyLevel::exact,
                                // separation 0: of the earliest contact, the double after toi or toi itself
+
+  // The pair at its toi, where the closest points p1 (of the first primitive) and p2 (of the second) are.
+  // weight: of the four `vertices`, clamped to the primitives; the first side's sum to 1, the second's to -1:
+  // p1 - p2 = sum_k weight[k] x[vertices[k]], a form that is linear in the positions at any time.
+  std::vector<std::array<double, 4>> weight;
+  std::vector<std::array<double, 3>> normal;  // unit, from p2 to p1: where the first primitive came from
+  std::vector<double> gap;  // |p1 - p2|, model length (Euclidean, the separation not taken off)
+  std::vector<double>
+      speed;  // normal . (displacement of p1 - p2 in the whole step), model length; < 0: closing
+  // 1: the normal is one of several that would do (parallel edges, a face without area, contact at the
+  // boundary of a primitive, such as vertex on vertex); it is finite, unit and oriented all the same. Else 0.
+  std::vector<std::uint8_t> degenerate;
+
   Outcome outcome =
       Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is empty
   int vertex = -1;

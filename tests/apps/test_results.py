@@ -59,10 +59,14 @@ class Small(AppTest):
 
     def test_active_set_csv(self):
         header, row = self.csv("active-set", self.a, self.b, "--tolerance", "1e-6").splitlines()
-        self.assertEqual(header, "kind,a,b,toi,v0,v1,v2,v3,status")
+        self.assertEqual(header, "kind,a,b,toi,v0,v1,v2,v3,status,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate")
         fields = row.split(",")
-        self.assertEqual(fields[:3] + fields[4:], ["vf", "3", "0", "3", "0", "1", "2", "contact"])
+        self.assertEqual(fields[:3] + fields[4:9], ["vf", "3", "0", "3", "0", "1", "2", "contact"])
         self.check_toi(float(fields[3]))
+        weights, normal, (gap, speed) = [[float(x) for x in fields[i:j]] for i, j in [(9, 13), (13, 16), (16, 18)]]
+        self.assertEqual((weights[0], sum(weights)), (1, 0))
+        self.assertEqual((normal, speed, fields[18]), ([0, 0, 1], -2, "0"))
+        self.assertTrue(0 <= gap <= 1e-6)
 
     def test_candidates(self):
         result = self.json("candidates", self.a, self.b)

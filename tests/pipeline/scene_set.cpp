@@ -40,10 +40,17 @@ Scene on_grid(Scene scene) {
   return scene;
 }
 
+template <class T>
+static bool same_array(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
 bool same_bytes(const ActiveSet& a, const ActiveSet& b) {
   return a.kind == b.kind && a.a == b.a && a.b == b.b && a.vertices == b.vertices && a.status == b.status &&
-         a.outcome == b.outcome && a.vertex == b.vertex && a.toi.size() == b.toi.size() &&
-         (a.toi.empty() || std::memcmp(a.toi.data(), b.toi.data(), a.toi.size() * sizeof(double)) == 0);
+         a.outcome == b.outcome && a.vertex == b.vertex && same_array(a.toi, b.toi) &&
+         same_array(a.step_limit, b.step_limit) && same_array(a.weight, b.weight) &&
+         same_array(a.normal, b.normal) && same_array(a.gap, b.gap) && same_array(a.speed, b.speed) &&
+         a.degenerate == b.degenerate;
 }
 
 bool same_bytes(const StepResult& a, const StepResult& b) {

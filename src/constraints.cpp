@@ -1,0 +1,57 @@
+#include "onset/constraints.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace onset {
+namespace {
+
+constexpr int kLargestVertex = (std::numeric_limits<int>::max() - 2) / 3;
+
+int mapped(int vertex, const std::vector<int>& full_vertex) {
+  if (!full_vertex.empty() && std::size_t(vertex) >= full_vertex.size())
+    throw std::invalid_argument("full_vertex has " + std::to_string(full_vertex.size()) + " ids; vertex " +
+                                std::to_string(vertex) + " has none");
+  const int id = full_vertex.empty() ? vertex : full_vertex[std::size_t(vertex)];
+  if (id < 0 || id > kLargestVertex)
+    throw std::invalid_argument("full_vertex row " + std::to_string(vertex) + ": id " + std::to_string(id) +
+                                " is not in [0, " + std::to_string(kLargestVertex) + "]");
+  return id;
+}
+
+std::array<int, 4> mapped(const std::array<int, 4>& vertices, const std::vector<int>& full_vertex) {
+  std::array<int, 4> r;
+  for (std::size_t i = 0; i < 4; ++i) {
+    r[i] = mapped(vertices[i], full_vertex);
+    for (std::size_t j = 0; j < i; ++j)
+      if (r[j] == r[i])
+        throw std::invalid_argument("full_vertex rows " + std::to_string(vertices[j]) + " and " +
+                                    std::to_string(vertices[i]) + " of one contact are both " +
+                                    std::to_string(r[i]));
+  }
+  return r;
+}
+
+}  // namespace
+
+Constraints assemble_constraints(const ActiveSet& set, double eta, const std::vector<int>& full_vertex) {
+  if (!std::isfinite(eta)) throw std::invalid_argument("eta is not finite");
+  Constraints c;
+  c.bound.assign(set.size(), eta);
+  for (std::vector<int>* ids : {&c.row, &c.dof}) ids->reserve(12 * set.size());
+  c.value.reserve(12 * set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const std::array<int, 4> vertices = mapped(set.vertices[i], full_vertex);
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t a = 0; a < 3; ++a) {
+        c.row.push_back(int(i));
+        c.dof.push_back(3 * vertices[k] + int(a));
+        c.value.push_back(set.weight[i][k] * set.normal[i][a]);
+      }
+  }
+  return c;
+}
+
+}  // namespace onset
