@@ -54,12 +54,23 @@ std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair p) 
 void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
   candidates += o.candidates, after_culls += o.after_culls, inclusion += o.inclusion;
   contacts += o.contacts, budget += o.budget, checks += o.checks;
-  most_checks = std::max(most_checks, o.most_checks);
+  const auto before = [](IdPair p, IdPair q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
+  if (o.most_checks > most_checks || (o.most_checks == most_checks && before(o.worst, worst)))
+    most_checks = o.most_checks, worst = o.worst;
+  for (std::size_t k = 0; k < histogram.size(); ++k) histogram[k] += o.histogram[k];
   achieved_tolerance = std::max(achieved_tolerance, o.achieved_tolerance);
   const auto order = [](const NarrowPhaseStats& s) {
     return std::tuple(s.least_kept, s.closest.a, s.closest.b);
   };
   if (order(o) < order(*this)) least_kept = o.least_kept, closest = o.closest;
+}
+
+void NarrowPhaseStats::note_checks(IdPair pair, std::int64_t n) {
+  const int power = 63 - __builtin_clzll(static_cast<unsigned long long>(n) | 1);
+  ++histogram[std::size_t(std::min(power, 15))];
+  if (n < most_checks || n == 0) return;
+  if (n > most_checks || pair.a < worst.a || (pair.a == worst.a && pair.b < worst.b)) worst = pair;
+  most_checks = n;
 }
 
 NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
@@ -138,9 +149,10 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
     const int row = scratch.survivors[std::size_t(i)];
     KernelResult& r = scratch.results[std::size_t(i)];
     if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) r.checks = 0;  // its checks are boxes
+    const std::int64_t before = scratch.stats.checks;
     scratch.stats.checks += r.checks;
-    scratch.stats.most_checks = std::max<std::int64_t>(scratch.stats.most_checks, r.checks);
     if (r.verdict != Verdict::free) finish({kind, pairs[row], input, row}, r, 0, scratch.stats, out);
+    scratch.stats.note_checks(pairs[row], scratch.stats.checks - before);
   }
 }
 
@@ -226,7 +238,6 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   if (real || seen_within_separation(c, found)) r.certainty = r.limit_certainty = Certainty::certain;
   if (real && from == 0) r.toi_hi = truth.time.hi;
   r.tolerance = std::max(0.0, (found.distance - d) * found.unit);
-  stats.most_checks = std::max(stats.most_checks, checks);
   report(r, stats, out);
 }
 
@@ -268,7 +279,9 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
         std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
     later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::budget;
     std::vector<PairResult> next;
-    finish(c, later, parting.t, stats, next);
+    KernelPairs whole = c.input;
+    whole.horizon = 1;  // what is reported at 0 is reported with its step_limit
+    finish({c.kind, c.pair, whole, c.row}, later, parting.t, stats, next);
     r.step_limit = next.empty() ? 1 : next[0].step_limit;
     if (!next.empty()) r.limit_certainty = next[0].certainty;
     if (!next.empty()) --stats.contacts;

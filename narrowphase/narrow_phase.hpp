@@ -2,6 +2,7 @@
 // leave undecided.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/motion.hpp"
@@ -41,12 +42,15 @@ struct PairResult {
 struct NarrowPhaseStats {
   std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, budget = 0, checks = 0,
                most_checks = 0;
+  IdPair worst{-1, -1};                         // the first pair with most_checks
+  std::array<std::int64_t, 16> histogram{};     // of checks: Stats::checks_histogram
   double achieved_tolerance = 0;
   // The least share of its gap, net of `rounding`, that a reported pair is sure to keep, and the pair; < 0:
   // not even its separation. 1 where all keep what was asked for.
   double least_kept = 1;
   IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
+  void note_checks(IdPair pair, std::int64_t checks);  // >= 1
 };
 
 // What one thread keeps between batches.

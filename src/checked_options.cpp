@@ -25,6 +25,10 @@ void check(const Options& o) {
   if (!(o.min_separation >= 0 && o.min_separation <= kMaxCoordinate))
     reject("min_separation", o.min_separation, "a number >= 0, at most 2^1020");
   if (o.max_checks < 1) reject("max_checks", double(o.max_checks), "at least 1");
+  if (!(o.window >= 0)) reject("window", o.window, "a number >= 0, or infinite");
+  if (!(o.time_limit >= 0)) reject("time_limit", o.time_limit, "a number >= 0, or infinite");
+  if (o.check_limit < 0) reject("check_limit", double(o.check_limit), "at least 0");
+  if (o.memory_limit < 0) reject("memory_limit", double(o.memory_limit), "at least 0");
   if (o.threads < 0) reject("threads", o.threads, "at least 1, or 0 for the caller's arena");
 }
 

@@ -14,9 +14,11 @@ ClosePairs close_pairs(const Mesh& mesh, const Positions& x, double d_hat, const
   r.d_hat = d_hat;
   in_arena(options.threads, [&] {
     Stats stats;
-    const Scene scene(mesh, x, x, options, BoxTest::motion, stats, d_hat);
+    Budget budget(options);
+    const Scene scene(mesh, x, x, options, BoxTest::motion, stats, budget, d_hat);
     r.outcome = scene.motion.status;
     r.vertex = scene.motion.bad_vertex;
+    if (r.outcome == Outcome::free && !scene.broad) r.outcome = budget.outcome();
     if (r.outcome != Outcome::free) return;
     static_assert(kMotionStride == 8, "a vertex's two ends are four doubles each");
     std::vector<double> at(std::size_t(mesh.num_vertices()) * 4);

@@ -1,6 +1,7 @@
 #include "src/held_pairs.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 
 #include "base/parallel.hpp"
@@ -11,13 +12,19 @@ namespace {
 struct Task {
   PairKind kind;
   const std::vector<Holder>& holders;
+  std::atomic<std::int64_t>& room;
+  Budget& budget;
   NarrowPhaseScratch scratch;
   std::vector<std::vector<IdPair>> kept;
 
   static void consume(void* context, const IdPair* pairs, std::size_t count) {
     auto& task = *static_cast<Task*>(context);
-    for (std::size_t i = 0; i < task.holders.size(); ++i)
+    if (task.room < 0 || task.budget.spent()) return;
+    for (std::size_t i = 0; i < task.holders.size(); ++i) {
+      const std::size_t before = task.kept[i].size();
       task.holders[i].narrow.cull(task.kind, pairs, count, task.scratch, task.kept[i]);
+      task.room -= std::int64_t(task.kept[i].size() - before);
+    }
   }
 };
 
@@ -32,18 +39,22 @@ void HeldPairs::traverse(PairKind kind, std::size_t first, std::size_t last, con
   }
 }
 
-void hold(const PairSource& broad, const std::vector<Holder>& holders) {
+bool hold(const PairSource& broad, const std::vector<Holder>& holders, std::int64_t most, Budget& budget) {
+  std::atomic<std::int64_t> room{most};
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     std::mutex mutex;
     parallel_ranges(broad.blocks(kind), 16, [&](std::size_t first, std::size_t last) {
-      Task task{kind, holders, {}, std::vector<std::vector<IdPair>>(holders.size())};
+      Task task{kind, holders, room, budget, {}, std::vector<std::vector<IdPair>>(holders.size())};
+      if (room < 0 || budget.spent()) return;
       broad.traverse(kind, first, last, {&task, &Task::consume});
       const std::lock_guard<std::mutex> lock(mutex);
+      if (room < 0) return;
       for (std::size_t i = 0; i < holders.size(); ++i) {
         std::vector<IdPair>& held = holders[i].held.of(kind);
         held.insert(held.end(), task.kept[i].begin(), task.kept[i].end());
       }
     });
+    if (room < 0) break;
     for (const Holder& holder : holders) {
       std::vector<IdPair>& held = holder.held.of(kind);
       parallel_sort(held.begin(), held.end(),
@@ -51,6 +62,9 @@ void hold(const PairSource& broad, const std::vector<Holder>& holders) {
       held.shrink_to_fit();
     }
   }
+  if (room < 0)
+    for (const Holder& holder : holders) holder.held = HeldPairs();
+  return room >= 0;
 }
 
 }  // namespace onset

@@ -5,6 +5,7 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "src/budget.hpp"
 
 namespace onset {
 
@@ -29,7 +30,8 @@ struct Holder {
   HeldPairs& held;
 };
 
-// One traversal of `broad` for all holders; each holds its pairs in the order of ids.
-void hold(const PairSource& broad, const std::vector<Holder>& holders);
+// One traversal of `broad` for all holders; each holds its pairs in the order of ids. No more than `most` in all, or none: then
+// returns false. Ends early where the budget is spent.
+bool hold(const PairSource& broad, const std::vector<Holder>& holders, std::int64_t most, Budget& budget);
 
 }  // namespace onset

@@ -40,7 +40,7 @@ struct LineSearch::Held {
   Mesh mesh;
   Options options;
   double keep, d_hat, rounding = 0;
-  std::unique_ptr<Scene> scene;  // its motion; the tree goes once the pairs are held
+  std::unique_ptr<Scene> scene;  // its motion; the tree goes once the pairs are held, and stays where they are too many
   std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
   StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
   HeldPairs pairs, near;         // that may limit a step; that may come within d_hat on the way
@@ -48,23 +48,28 @@ struct LineSearch::Held {
   NarrowPhaseInput input() const {
     return {mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, options, keep, rounding};
   }
-  void fill();
+  bool fill(Budget& budget);
+  const PairSource& source(const HeldPairs& held) const {
+    return scene->broad ? static_cast<const PairSource&>(*scene->broad) : held;
+  }
   std::vector<double> at(double step) const;
 };
 
 // Beyond reach for the whole of the exact motion, a pair is beyond d_hat wherever the line search stops, in
 // stored doubles too.
-void LineSearch::Held::fill() {
+// False where they are too many to be held.
+bool LineSearch::Held::fill(Budget& budget) {
+  const std::int64_t most = options.memory_limit / std::int64_t(sizeof(IdPair));
   const NarrowPhase narrow(input());
   std::vector<Holder> holders{{narrow, pairs}};
-  if (d_hat == 0) return hold(*scene->broad, holders);
+  if (d_hat == 0) return hold(*scene->broad, holders, most, budget);
   Options beyond = options;
   beyond.min_separation = euclidean_reach(mesh.data(), options, d_hat, rounding);
   beyond.norm = Norm::euclidean;
   const NarrowPhase far(
       {mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, beyond, 0, 0});
   holders.push_back({far, near});
-  hold(*scene->broad, holders);
+  return hold(*scene->broad, holders, most, budget);
 }
 
 // The positions that x_t0 + step dx rounds to, 4 doubles a vertex, in the motion's order of axes.
@@ -89,13 +94,15 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
   for (std::ptrdiff_t i = 0; d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
   in_arena(options.threads, [&] {
     const Positions end(x_t1.data(), x_t0.rows());
-    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, BoxTest::motion, h.start.stats, d_hat);
+    Budget budget(h.options);
+    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, BoxTest::motion, h.start.stats, budget, d_hat);
     h.start.outcome = h.scene->motion.status;
     h.start.vertex = h.scene->motion.bad_vertex;
     if (h.start.outcome != Outcome::free) return;
     h.rounding = rounding_of_distances(h.scene->motion);
-    h.fill();
-    h.scene->broad.reset();
+    const bool held = h.scene->broad && h.fill(budget);
+    h.start.outcome = budget.outcome();
+    if (held) h.scene->broad.reset();
   });
 }
 LineSearch::~LineSearch() = default;
@@ -115,9 +122,10 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   if (h.start.outcome != Outcome::free) return r;
   in_arena(h.options.threads, [&] {
     const Clock clock;
-    const PassResult pass = run_pass(h.pairs, NarrowPhase(h.input()), Keep::limiting, upper);
+    Budget budget(h.options);
+    const PassResult pass = run_pass(h.source(h.pairs), NarrowPhase(h.input()), Keep::limiting, upper, budget);
     copy_counts(pass, r.result.stats);
-    limit_step(h.mesh, pass, r.result);
+    limit_step(h.mesh, pass, budget, r.result);
     r.result.stats.seconds_narrow = r.result.stats.seconds_total = clock.seconds();
     for (const auto& [kind, stats] :
          {std::pair{PairKind::vertex_face, pass.vertex_face}, {PairKind::edge_edge, pass.edge_edge}}) {
@@ -148,7 +156,7 @@ ClosePairs LineSearch::close_pairs(double step) const {
   in_arena(h.options.threads, [&] {
     const Clock clock;
     const std::vector<double> x = h.at(step);
-    r.pairs = find_close(h.near, {h.mesh, x.data(), h.d_hat, h.rounding, h.options});
+    r.pairs = find_close(h.source(h.near), {h.mesh, x.data(), h.d_hat, h.rounding, h.options});
     r.seconds = clock.seconds();
   });
   return r;

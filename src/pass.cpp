@@ -16,24 +16,42 @@ std::uint64_t order(const FoundPair& f) {
          std::uint64_t(f.result.pair.b);
 }
 
+// With a budget of checks, work comes in waves of so many blocks: all that a wave does follows from those
+// before it.
+constexpr std::size_t kFirstWave = 16, kLargestWave = 1024;
+// Under a time limit, or where it can be cancelled: pairs between two looks at the budget.
+constexpr std::size_t kWatchedPairs = 16;
+// Of the earliest contacts only: results a task holds before it hands them over.
+constexpr std::size_t kHeldByATask = 1024;
+
 class Pass {
  public:
-  Pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon)
-      : pairs_(pairs), narrow_(narrow), keep_(keep), horizon_(horizon) {}
+  Pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon, Budget& budget,
+       std::size_t stride, const PassBounds& bounds)
+      : pairs_(pairs),
+        narrow_(narrow),
+        keep_(keep),
+        budget_(budget),
+        stride_(stride),
+        bounds_(bounds),
+        horizon_(horizon),
+        wave_horizon_(horizon) {
+    budget.begin_pass(count(PairKind::vertex_face) + count(PairKind::edge_edge));
+  }
 
-  // Every stride-th block.
-  void run(PairKind kind, std::size_t stride, NarrowPhaseStats& stats) {
-    const std::size_t blocks = (pairs_.blocks(kind) + stride - 1) / stride;
-    parallel_ranges(blocks, kBlocksATask, [&](std::size_t first, std::size_t last) {
-      if (ended()) return;
-      Task task{*this, kind, {}, {}};
-      if (stride == 1)
-        pairs_.traverse(kind, first, last, {&task, &Task::consume});
-      else
-        for (std::size_t i = first; i < last; ++i)
-          pairs_.traverse(kind, i * stride, i * stride + 1, {&task, &Task::consume});
-      merge(kind, task, stats);
-    });
+  void run(PairKind kind, NarrowPhaseStats& stats) {
+    const std::size_t blocks = count(kind);
+    if (!budget_.counts_checks()) return run(kind, 0, blocks, stats);
+    for (std::size_t first = 0, wave = kFirstWave; first < blocks;) {
+      budget_.look_at_checks();
+      wave_horizon_ = horizon_.load(std::memory_order_relaxed);
+      const std::size_t last = std::min(first + wave, blocks);
+      const std::int64_t before = stats.checks;
+      run(kind, first, last, stats);
+      budget_.add_checks(stats.checks - before);
+      first = last;
+      wave = std::min(2 * wave, kLargestWave);
+    }
   }
 
   std::vector<FoundPair> take() {
@@ -47,52 +65,103 @@ class Pass {
   struct Task {
     Pass& pass;
     PairKind kind;
+    NarrowPhaseStats& stats;  // of the pass
     NarrowPhaseScratch scratch;
     std::vector<PairResult> results;
 
     static void consume(void* context, const IdPair* pairs, std::size_t count) {
       auto& task = *static_cast<Task*>(context);
-      if (task.pass.ended()) return;
-      task.pass.narrow_.process(task.kind, pairs, count, task.pass.horizon_.load(std::memory_order_relaxed),
-                                task.scratch, task.results);
-      if (task.pass.keep_ != Keep::all) task.pass.shrink_horizon(task);
+      const std::size_t step = task.pass.budget_.is_watched() ? kWatchedPairs : count;
+      for (std::size_t i = 0; i < count && !task.pass.ended(); i += step)
+        task.process(pairs + i, std::min(step, count - i));
+    }
+    void process(const IdPair* pairs, std::size_t count) {
+      const std::size_t known = results.size();
+      pass.narrow_.process(kind, pairs, count, pass.horizon(), scratch, results);
+      if (results.size() == known) return;
+      if (pass.keep_ == Keep::all)
+        pass.shrink_to_window(results, known);
+      else
+        pass.shrink_horizon(*this);
+      if (pass.is_bounded() && results.size() >= kHeldByATask) pass.merge(*this);
     }
   };
 
-  bool ended() const { return keep_ == Keep::any && horizon_.load(std::memory_order_relaxed) < 1; }
+  std::size_t count(PairKind kind) const { return (pairs_.blocks(kind) + stride_ - 1) / stride_; }
 
-  // Keeps the task's first limiting pair only. The horizon is only ever an early-out: results do not depend
-  // on it.
+  // Every stride-th block.
+  void run(PairKind kind, std::size_t from, std::size_t to, NarrowPhaseStats& stats) {
+    parallel_ranges(to - from, kBlocksATask, [&](std::size_t first, std::size_t last) {
+      if (ended()) return;
+      Task task{*this, kind, stats, {}, {}};
+      if (stride_ == 1)
+        pairs_.traverse(kind, from + first, from + last, {&task, &Task::consume});
+      else
+        for (std::size_t i = from + first; i < from + last; ++i)
+          pairs_.traverse(kind, i * stride_, i * stride_ + 1, {&task, &Task::consume});
+      merge(task);
+      if (budget_.outcome() == Outcome::free) budget_.advance(last - first);
+    });
+  }
+
+  bool ended() const {
+    return budget_.spent() || (keep_ == Keep::any && horizon_.load(std::memory_order_relaxed) < 1);
+  }
+  bool is_bounded() const { return bounds_.most < std::numeric_limits<std::size_t>::max(); }
+  double horizon() const {
+    return budget_.counts_checks() ? wave_horizon_ : horizon_.load(std::memory_order_relaxed);
+  }
+  // The horizon is only ever an early-out: results do not depend on it.
+  void shrink_to(double limit) {
+    double now = horizon_.load(std::memory_order_relaxed);
+    while (limit < now && !horizon_.compare_exchange_weak(now, limit, std::memory_order_relaxed)) {
+    }
+  }
+  void shrink_to_window(const std::vector<PairResult>& results, std::size_t first) {
+    for (std::size_t i = first; i < results.size(); ++i) shrink_to(latest_time(results[i]) + bounds_.window);
+  }
+
+  // Keeps the task's first limiting pair only.
   void shrink_horizon(Task& task) {
-    if (task.results.empty()) return;
     std::size_t best = 0;
     const auto as_found = [&](std::size_t i) { return FoundPair{task.kind, task.results[i]}; };
     for (std::size_t i = 1; i < task.results.size(); ++i)
       if (limits_before(as_found(i), as_found(best))) best = i;
     task.results[0] = task.results[best];
     task.results.resize(1);
-    const double limit = task.results[0].step_limit;
-    double now = horizon_.load(std::memory_order_relaxed);
-    while (limit < now && !horizon_.compare_exchange_weak(now, limit, std::memory_order_relaxed)) {
-    }
+    shrink_to(task.results[0].step_limit);
   }
 
-  void merge(PairKind kind, const Task& task, NarrowPhaseStats& stats) {
+  // Hands over what the task has, results and statistics.
+  void merge(Task& task) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    stats.add(task.scratch.stats);
+    task.stats.add(task.scratch.stats);
     for (const PairResult& r : task.results) {
-      const FoundPair f{kind, r};
+      const FoundPair f{task.kind, r};
       if (keep_ == Keep::all || found_.empty())
         found_.push_back(f);
       else if (limits_before(f, found_[0]))
         found_[0] = f;
     }
+    task.scratch.stats = {};
+    task.results.clear();
+    if (is_bounded() && found_.size() > bounds_.most + bounds_.most / 2 + kHeldByATask) drop_latest();
+  }
+  void drop_latest() {
+    const auto last = found_.begin() + std::ptrdiff_t(bounds_.most) - 1;
+    std::nth_element(found_.begin(), last, found_.end(), earlier);
+    shrink_to(last->result.toi);
+    found_.resize(bounds_.most);
   }
 
   const PairSource& pairs_;
   const NarrowPhase& narrow_;
   const Keep keep_;
+  Budget& budget_;
+  const std::size_t stride_;
+  const PassBounds bounds_;
   std::atomic<double> horizon_;
+  double wave_horizon_;
   std::mutex mutex_;
   std::vector<FoundPair> found_;
 };
@@ -106,12 +175,16 @@ bool limits_before(const FoundPair& x, const FoundPair& y) {
                                                     : before(x, y);
 }
 
+bool earlier(const FoundPair& x, const FoundPair& y) {
+  return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);
+}
+
 PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
-                    std::size_t stride) {
+                    Budget& budget, std::size_t stride, const PassBounds& bounds) {
   PassResult result;
-  Pass pass(pairs, narrow, keep, horizon);
-  pass.run(PairKind::vertex_face, stride, result.vertex_face);
-  pass.run(PairKind::edge_edge, stride, result.edge_edge);
+  Pass pass(pairs, narrow, keep, horizon, budget, stride, bounds);
+  pass.run(PairKind::vertex_face, result.vertex_face);
+  pass.run(PairKind::edge_edge, result.edge_edge);
   result.found = pass.take();
   return result;
 }
@@ -127,6 +200,8 @@ void copy_counts(const PassResult& pass, Stats& stats) {
   stats.budget = both(&NarrowPhaseStats::budget);
   stats.checks = both(&NarrowPhaseStats::checks).total();
   stats.max_checks_of_a_pair = std::max(pass.vertex_face.most_checks, pass.edge_edge.most_checks);
+  for (std::size_t k = 0; k < stats.checks_histogram.size(); ++k)
+    stats.checks_histogram[k] = pass.vertex_face.histogram[k] + pass.edge_edge.histogram[k];
   stats.achieved_tolerance = std::max(pass.vertex_face.achieved_tolerance, pass.edge_edge.achieved_tolerance);
 }
 
@@ -134,7 +209,21 @@ Pair to_pair(const Mesh& mesh, const FoundPair& f) {
   return {f.kind, f.result.pair.a, f.result.pair.b, pair_vertices(mesh.data(), f.kind, f.result.pair)};
 }
 
-void limit_step(const Mesh& mesh, const PassResult& pass, StepResult& r) {
+void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats) {
+  const bool edges = pass.edge_edge.most_checks > pass.vertex_face.most_checks;
+  const IdPair pair = edges ? pass.edge_edge.worst : pass.vertex_face.worst;
+  const PairKind kind = edges ? PairKind::edge_edge : PairKind::vertex_face;
+  if (pair.a >= 0) stats.worst = {kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
+}
+
+void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, StepResult& r) {
+  note_worst(mesh, pass, r.stats);
+  if (budget.outcome() != Outcome::free) {
+    r.step = 0;
+    r.outcome = budget.outcome();
+    r.stats.looked_at = budget.done();
+    return;
+  }
   r.step = 1;
   if (pass.found.empty() || pass.found[0].result.step_limit >= 1) return;
   const PairResult& limiting = pass.found[0].result;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <vector>
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "onset/mesh.hpp"
+#include "src/budget.hpp"
 
 namespace onset {
 
@@ -32,14 +34,29 @@ struct PassResult {
   NarrowPhaseStats vertex_face, edge_edge;
 };
 
+// What else bounds a pass that keeps all: pairs later than the earliest toi + `window`, and than the earliest
+// `most`, may be dropped on the way (the caller cuts off the rest).
+struct PassBounds {
+  double window = std::numeric_limits<double>::infinity();
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+};
+
 // `horizon`: pairs certified apart beyond it may be dropped. `stride`: only every stride-th block of pairs is
-// looked at.
+// looked at. Ends early where the budget is spent: what is found is then true, but not all.
 PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
-                    std::size_t stride = 1);
+                    Budget& budget, std::size_t stride = 1, const PassBounds& bounds = {});
+
+// When a pair that is reported has surely touched, as far as is known: exact times may move a toi up to there.
+inline double latest_time(const PairResult& r) { return r.certainty == Certainty::certain ? r.toi_hi : r.toi; }
+
+// Ordered by (toi, kind, a, b).
+bool earlier(const FoundPair& x, const FoundPair& y);
 
 void copy_counts(const PassResult& pass, Stats& stats);
 Pair to_pair(const Mesh& mesh, const FoundPair& found);
-// The step, outcome and limiting pair that follow from a pass that kept the limiting pair.
-void limit_step(const Mesh& mesh, const PassResult& pass, StepResult& result);
+void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats);
+// The step, outcome and limiting pair that follow from a pass that kept the limiting pair: none with a spent
+// budget.
+void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, StepResult& result);
 
 }  // namespace onset

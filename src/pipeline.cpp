@@ -1,7 +1,9 @@
 #include "onset/pipeline.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "base/parallel.hpp"
@@ -19,16 +21,19 @@ constexpr std::size_t kSampledBlocks = 64;  // one in so many
 // horizon, and the whole is passed once with a horizon that shrinks further. A pair reported at t is within d
 // + tolerance then, so boxes that are wider by the tolerance on [0, horizon] lose none that is reported by
 // then: the result is the minimum of the active set.
+//
+// Within a window: whatever the sample finds bounds the earliest contact, and the window begins there.
 double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options,
-                         const Stats& stats) {
+                         Keep keep, Budget& budget, const Stats& stats) {
   if (!narrow.uses_horizon()) return 1;
-  const PassResult sample = run_pass(*scene.broad, narrow, Keep::limiting, 1, kSampledBlocks);
+  const PassResult sample = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, kSampledBlocks);
   if (sample.found.empty()) return 1;
-  // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
   const PairResult& first = sample.found[0].result;
+  // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
   const bool exact = narrow.times_are_exact() && first.step_limit < 1;
-  const double horizon = exact ? std::nextafter(first.step_limit, 1) : first.step_limit;
-  if (horizon > 0.5) return horizon;
+  const double limit = exact ? std::nextafter(first.step_limit, 1) : first.step_limit;
+  const double horizon = keep == Keep::all ? latest_time(first) + options.window : limit;
+  if (horizon > 0.5) return std::min(horizon, 1.0);
   const double inflation = 0.5 * (options.min_separation + stats.tolerance) * (1 + 0x1p-50);
   scene.broad->refit({mesh.data(), scene.motion, inflation, horizon, BoxTest::motion, options.kernel});
   return horizon;
@@ -43,13 +48,29 @@ void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) 
     if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) narrow.sharpen(f.kind, f.result);
 }
 
-PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Stats& stats) {
+// 256 bytes a contact: a row of the set is 120, and finding it takes up to 1.5 times 48 twice over.
+constexpr std::int64_t kBytesAContact = 256;
+
+std::size_t most_contacts(const Options& options) {
+  return std::size_t(options.memory_limit / kBytesAContact);
+}
+
+// One contact more than fits, where there is a limit: it tells until when the set is complete.
+PassBounds bounds(const Options& options) {
+  const bool limited = options.memory_limit < std::numeric_limits<std::int64_t>::max();
+  return {options.window, limited ? most_contacts(options) + 1 : std::numeric_limits<std::size_t>::max()};
+}
+
+PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget,
+               Stats& stats) {
   const double begun = scene.clock.seconds();
   const bool exact_times = options.certainty == CertaintyLevel::exact && keep != Keep::all;
   const NarrowPhase narrow(
       {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times});
-  const double horizon = keep == Keep::limiting ? shrink_to_horizon(mesh, scene, narrow, options, stats) : 1;
-  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon);
+  const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
+  const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, stats) : 1;
+  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1,
+                             keep == Keep::all ? bounds(options) : PassBounds{});
   if (keep == Keep::all) sharpen_earliest(narrow, pass.found);
   copy_counts(pass, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;
@@ -60,12 +81,14 @@ PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep
 StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                          const Options& options, Keep keep) {
   StepResult r;
-  Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, r.stats);
+  Budget budget(options);
+  Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, r.stats, budget);
   r.outcome = scene.motion.status;
   r.vertex = scene.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
-  const PassResult pass = run(mesh, scene, options, keep, r.stats);
-  limit_step(mesh, pass, r);
+  const PassResult pass = scene.broad ? run(mesh, scene, options, keep, budget, r.stats) : PassResult{};
+  limit_step(mesh, pass, budget, r);
+  r.stats.seconds_total = scene.clock.seconds();
   return r;
 }
 
@@ -104,6 +127,28 @@ void add_frames(const Motion& motion, ActiveSet& set) {
   });
 }
 
+// The window and the memory limit cut off, in the order (toi, kind, a, b), what is later.
+void cut_off(std::vector<FoundPair>& found, const Options& options, const Budget& budget, ActiveSet& set) {
+  set.complete_until = std::numeric_limits<double>::infinity();
+  set.outcome = budget.outcome();
+  if (!found.empty() && options.window < 1) {
+    double earliest = found[0].result.toi;
+    for (const FoundPair& f : found) earliest = std::min(earliest, f.result.toi);
+    set.complete_until = earliest + options.window;
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const FoundPair& f) { return f.result.toi > set.complete_until; }),
+                found.end());
+  }
+  if (const std::size_t most = most_contacts(options); found.size() > most) {
+    std::nth_element(found.begin(), found.begin() + std::ptrdiff_t(most), found.end(), earlier);
+    set.complete_until = found[most].result.toi;
+    if (set.outcome == Outcome::free) set.outcome = Outcome::out_of_memory;
+    found.resize(most);
+    std::sort(found.begin(), found.end(), before);
+  }
+  if (budget.outcome() != Outcome::free) set.complete_until = 0;
+}
+
 }  // namespace
 
 ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
@@ -111,11 +156,19 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
   check(options);
   ActiveSet set;
   in_arena(options.threads, [&] {
-    Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, set.stats);
+    Budget budget(options);
+    Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, set.stats, budget);
     set.outcome = scene.motion.status;
     set.vertex = scene.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
-    for (const FoundPair& f : run(mesh, scene, options, Keep::all, set.stats).found) {
+    PassResult pass = scene.broad ? run(mesh, scene, options, Keep::all, budget, set.stats) : PassResult{};
+    const double begun = scene.clock.seconds();
+    note_worst(mesh, pass, set.stats);
+    cut_off(pass.found, options, budget, set);
+    if (budget.outcome() != Outcome::free) set.stats.looked_at = budget.done();
+    set.stats.contacts = {};
+    for (const FoundPair& f : pass.found) {
+      ++(f.kind == PairKind::vertex_face ? set.stats.contacts.vertex_face : set.stats.contacts.edge_edge);
       const Pair pair = to_pair(mesh, f);
       set.kind.push_back(pair.kind);
       set.a.push_back(pair.a);
@@ -128,31 +181,37 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
       set.toi_hi.push_back(f.result.toi_hi);
     }
     add_frames(scene.motion, set);
-    if (set.size() > 0) set.outcome = Outcome::contact;
+    if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
     set.stats.seconds_total = scene.clock.seconds();
+    set.stats.seconds_contacts = set.stats.seconds_total - begun;
   });
   return set;
 }
 
 namespace {
 
-void list_candidates(const BroadPhase& broad, PairKind kind, bool list,
-                     std::vector<std::array<int, 2>>& pairs, std::int64_t& count) {
+// Nothing is listed any more once `room` (pairs) is used up.
+void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::atomic<std::int64_t>& room,
+                     Budget& budget, std::vector<std::array<int, 2>>& pairs, std::int64_t& count) {
   std::mutex mutex;
   struct Task {
     bool list;
+    std::atomic<std::int64_t>& room;
+    Budget& budget;
     std::int64_t count;
     std::vector<std::array<int, 2>> pairs;
     static void consume(void* context, const IdPair* p, std::size_t n) {
       auto& task = *static_cast<Task*>(context);
+      if (task.budget.spent()) return;
       task.count += std::int64_t(n);
-      if (task.list)
+      if (task.list && (task.room -= std::int64_t(n)) >= 0)
         for (std::size_t i = 0; i < n; ++i) task.pairs.push_back({p[i].a, p[i].b});
     }
   };
   parallel_ranges(broad.blocks(kind), 64, [&](std::size_t first, std::size_t last) {
-    Task task{list, 0, {}};
-    broad.traverse(kind, first, last, {&task, &Task::consume});
+    Task task{list, room, budget, 0, {}};
+    if (!budget.spent()) broad.traverse(kind, first, last, {&task, &Task::consume});
+    if (!budget.spent()) budget.advance(last - first);
     const std::lock_guard<std::mutex> lock(mutex);
     count += task.count;
     pairs.insert(pairs.end(), task.pairs.begin(), task.pairs.end());
@@ -167,12 +226,22 @@ Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Pos
   check(options);
   Candidates c;
   in_arena(options.threads, [&] {
-    Scene scene(mesh, x_t0, x_t1, options, BoxTest::swept, c.stats);
+    Budget budget(options);
+    Scene scene(mesh, x_t0, x_t1, options, BoxTest::swept, c.stats, budget);
     c.outcome = scene.motion.status;
     c.vertex = scene.motion.bad_vertex;
     if (c.outcome != Outcome::free) return;
-    list_candidates(*scene.broad, PairKind::vertex_face, list, c.vertex_face, c.counts.vertex_face);
-    list_candidates(*scene.broad, PairKind::edge_edge, list, c.edge_edge, c.counts.edge_edge);
+    std::atomic<std::int64_t> room{options.memory_limit / std::int64_t(sizeof(IdPair))};
+    if (scene.broad) {
+      budget.begin_pass(scene.broad->blocks(PairKind::vertex_face) +
+                        scene.broad->blocks(PairKind::edge_edge));
+      list_candidates(*scene.broad, PairKind::vertex_face, list, room, budget, c.vertex_face,
+                      c.counts.vertex_face);
+      list_candidates(*scene.broad, PairKind::edge_edge, list, room, budget, c.edge_edge, c.counts.edge_edge);
+    }
+    c.outcome = room < 0 ? Outcome::out_of_memory : budget.outcome();
+    if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = {};
+    if (budget.outcome() != Outcome::free) c.stats.looked_at = budget.done();
     c.stats.swept = c.counts;
     c.stats.seconds_total = scene.clock.seconds();
     c.stats.seconds_broad = c.stats.seconds_total;

@@ -18,6 +18,14 @@ const char* to_string(Outcome outcome) {
       return "non_finite";
     case Outcome::out_of_range:
       return "out_of_range";
+    case Outcome::out_of_time:
+      return "out_of_time";
+    case Outcome::out_of_memory:
+      return "out_of_memory";
+    case Outcome::out_of_checks:
+      return "out_of_checks";
+    case Outcome::cancelled:
+      return "cancelled";
   }
   return "unknown";
 }

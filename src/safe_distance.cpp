@@ -86,9 +86,10 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     HeldPairs held;
     for (const ClosePair& p : close) held.of(p.kind).push_back({p.a, p.b});
     const NarrowPhase narrow({mesh.data(), motion, r.stats.tolerance, r.stats.extent, options});
-    const PassResult pass = run_pass(held, narrow, Keep::limiting, 1);
+    Budget budget(options);
+    const PassResult pass = run_pass(held, narrow, Keep::limiting, 1, budget);
     copy_counts(pass, r.stats);
-    limit_step(mesh, pass, r);
+    limit_step(mesh, pass, budget, r);
     double moved = 0;
     for (int v = 0; v < motion.num_vertices; ++v) {
       const double *a = motion.t0(v), *b = motion.t1(v);

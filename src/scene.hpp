@@ -5,19 +5,22 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "onset/mesh.hpp"
+#include "src/budget.hpp"
 #include "src/clock.hpp"
 
 namespace onset {
 
 struct Scene {
   Motion motion;
-  std::unique_ptr<BroadPhase> broad;  // empty where the motion is not usable (motion.status)
+  std::unique_ptr<BroadPhase>
+      broad;  // empty where the motion is not usable (motion.status), or no budget is left
   Clock clock;
 
-  // Fills the statistics that are known before any pair is. d_hat >= 0: boxes reach as far as pairs of a
-  // distance set of d_hat, and at least of the tolerance, can be apart, positions rounded to doubles included.
+  // Fills the statistics that are known before any pair is. No broad phase is made where the budget is spent.
+  // d_hat >= 0: boxes reach as far as pairs of a distance set of d_hat, and at least of the tolerance, can be
+  // apart, positions rounded to doubles included.
   Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, BoxTest test,
-        Stats& stats, double d_hat = -1);
+        Stats& stats, Budget& budget, double d_hat = -1);
 };
 
 }  // namespace onset

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
 
 namespace onset {
@@ -38,6 +40,34 @@ struct Options {
   // When they run out, the time reached so far is returned: conservative, never late. Nearly all pairs need
   // fewer than 30; the default keeps the worst query below 10 ms.
   std::int64_t max_checks = 10000;
+
+  // Of an active set: time in units of the step, >= 0. Only contacts with toi <= earliest toi + window are
+  // reported, bit for bit as without a window, and what happens later is not looked at closely. Infinite:
+  // all.
+  double window = std::numeric_limits<double>::infinity();
+
+  // Budgets of one call, each >= 0. When one is spent the answer is conservative and has an outcome of its
+  // own: a step of 0, an active set of true contacts that says how far it is complete
+  // (ActiveSet::complete_until), candidates that are counted but not listed.
+  //
+  // check_limit: checks of all pairs together. Whether it is spent, and what is answered then, is the same
+  // for any number of threads; it may be overrun by one wave of work (16 blocks of pairs at first, 1024 at
+  // most).
+  std::int64_t check_limit = std::numeric_limits<std::int64_t>::max();
+  // memory_limit: bytes of what is kept for each pair: 256 a contact of an active set (the earliest ones are
+  // kept), 8 a candidate that is listed or held by a LineSearch (which finds them again at each step size
+  // instead: the same answers, later). Not in it: positions, boxes and tree (about 400 bytes a vertex, face
+  // and edge) and, for each thread, a batch of pairs. The same answer for any number of threads.
+  std::int64_t memory_limit = std::numeric_limits<std::int64_t>::max();
+  // time_limit: seconds since the call began, looked at every few pairs and between the phases. What it cuts
+  // off depends on the machine and on the moment: the only option that does not give the same bytes each
+  // time.
+  double time_limit = std::numeric_limits<double>::infinity();
+
+  // Called with the share of the pairs looked at so far, in [0, 1], now and then: first with 0, before any
+  // work. Returning false cancels the call (Outcome::cancelled). By one thread at a time, the caller's or one
+  // of its arena's; an exception it throws leaves the call. Must not call into the same LineSearch.
+  std::function<bool(double)> progress;
 
   // 0: in the caller's task arena, as it is. n >= 1: at most n threads in an arena of the call.
   int threads = 0;

@@ -23,6 +23,12 @@ enum class Outcome : std::uint8_t {
   budget,              // max_checks spent: free until toi, undecided after
   non_finite,          // a position is NaN or infinite: step 0, `vertex` names the first
   out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
+  // The call ended early (Options: budgets of one call); pairs that were not looked at may touch at any time:
+  // step 0.
+  out_of_time,
+  out_of_memory,
+  out_of_checks,
+  cancelled,  // by Options::progress
 };
 ONSET_API const char* to_string(Outcome outcome);
 
@@ -55,9 +61,15 @@ struct Stats {
   PairCounts inclusion;    // candidates that needed the inclusion root finder
   PairCounts budget;       // candidates that spent max_checks
   std::int64_t checks = 0, max_checks_of_a_pair = 0;
+  // [k]: candidates left by the culls that took 2^k checks or more, less than 2^(k + 1); the last: 2^15 or
+  // more.
+  std::array<std::int64_t, 16> checks_histogram{};
+  Pair worst;            // the first of those with the most checks (a = -1: none)
+  double looked_at = 1;  // share of the pairs looked at, in [0, 1]: < 1 where a budget was spent
   double seconds_broad = 0, seconds_narrow = 0,
          seconds_total = 0;       // broad: motion, boxes and tree; narrow: traversal
                                   // and certificates, which are fused
+  double seconds_contacts = 0;    // of an active set: order, contact points and normals
   double tolerance = 0;           // model length: Options::tolerance, or the relative one times `extent`
   double achieved_tolerance = 0;  // the largest distance beyond the separation at which a pair was reported
   double extent = 0;              // R: the largest corner difference that an overlapping pair can have
@@ -107,9 +119,12 @@ struct ActiveSet {
   // boundary of a primitive, such as vertex on vertex); it is finite, unit and oriented all the same. Else 0.
   std::vector<std::uint8_t> degenerate;
 
-  Outcome outcome =
-      Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is empty
+  Outcome outcome = Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is
+                                    // empty; where a budget was spent, that
   int vertex = -1;
+  // Every contact with toi < complete_until is in the set. Infinite where all are; earliest + Options::window
+  // with a window; 0 where time or checks ran out or the call was cancelled.
+  double complete_until = 0;
   Stats stats;
 
   std::size_t size() const { return kind.size(); }
