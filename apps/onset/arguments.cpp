@@ -68,10 +68,25 @@ void add_accuracy(CLI::App& command, onset::Options& o) {
       [&o](const std::string& s) { o.min_separation = parse_real("--min-separation", s, Zero::allowed); });
 }
 
+void add_budgets(CLI::App& command, onset::Options& o) {
+  add(command, "--time-limit", "SECONDS", "Then the answer is what is certain by then [none]",
+      [&o](const std::string& s) { o.time_limit = parse_real("--time-limit", s, Zero::allowed); });
+  add(command, "--check-limit", "COUNT", "The same for the checks of all pairs together [none]",
+      [&o](const std::string& s) { o.check_limit = parse_whole("--check-limit", s, 0, INT64_MAX); });
+  add(command, "--memory-limit", "BYTES", "The same for what is kept of each pair [none]",
+      [&o](const std::string& s) { o.memory_limit = parse_whole("--memory-limit", s, 0, INT64_MAX); });
+}
+
 }  // namespace
+
+void add_window(CLI::App& command, Arguments& a) {
+  add(command, "--window", "TIME", "Only contacts with toi <= earliest toi + TIME [all]",
+      [&a](const std::string& s) { a.options.window = parse_real("--window", s, Zero::allowed); });
+}
 
 void add_common_options(CLI::App& command, Arguments& a, const std::string& csv_columns) {
   add_accuracy(command, a.options);
+  add_budgets(command, a.options);
   add_choice(command, "--norm", a.norm, {"euclidean", "maximum"}, "Norm of the minimum separation");
   add(command, "--threads", "COUNT", "At most COUNT threads; 0: all cores. The result is the same [0]",
       [&a](const std::string& s) { a.options.threads = int(parse_whole("--threads", s, 0, 4096)); });

@@ -16,6 +16,9 @@ struct Arguments {
 // Adds them to `command`; `arguments` must outlive the parse. `csv_columns` goes into the help.
 void add_common_options(CLI::App& command, Arguments& arguments, const std::string& csv_columns);
 
+// --window, of active sets.
+void add_window(CLI::App& command, Arguments& arguments);
+
 // What the library takes. Throws UsageError where two outputs share one destination.
 onset::Options to_options(const Arguments& arguments);
 

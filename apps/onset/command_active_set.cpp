@@ -2,6 +2,7 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "scene_command.hpp"
+#include "scene_files.hpp"
 
 namespace app {
 namespace {
@@ -25,16 +26,22 @@ std::string summary(const onset::ActiveSet& set) {
 }  // namespace
 
 void add_active_set(CLI::App& app, Run& run) {
-  add_scene_command(
+  const auto files = std::make_shared<SceneFiles>();
+  std::shared_ptr<Arguments> arguments;
+  CLI::App* command = add_scene_command(
       app, run, "active-set", "Every pair that comes into contact between A and B, with its time of impact",
-      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate (vf: vertex and face; "
-      "ee: edges in the order of igl::edges; w: weights of the vertices at the contact point; n: unit normal; speed < 0 "
-      "closes)",
-      [](const Scene& scene, const onset::Options& options, Outputs& outputs) {
+      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate (vf: vertex and face; ee: "
+      "edges in the order of igl::edges; w: weights of the vertices at the contact point; n: unit normal; "
+      "speed < 0 closes)",
+      [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
         const onset::ActiveSet set = compute(scene, options);
         if (outputs.csv()) write_active_set_csv(*outputs.csv(), set);
+        write_files(*files, scene, options, set);
         outputs.finish(active_set_json(set), describe_sizes(scene.mesh) + summary(set));
-      });
+      },
+      &arguments);
+  add_window(*command, *arguments);
+  add_scene_files(*command, *files);
 }
 
 }  // namespace app

@@ -9,7 +9,7 @@
 #include "error.hpp"
 #include "input_file.hpp"
 #include "progress.hpp"
-#include "query_file.hpp"
+#include "query_dump.hpp"
 #include "report.hpp"
 
 namespace app {
@@ -42,11 +42,6 @@ struct FileTally {
   onset::PairKind kind;
   Tally tally;
 };
-
-onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onset::Options& options) {
-  return kind == onset::PairKind::vertex_face ? onset::vertex_face_ccd({query.t0, query.t1}, options)
-                                              : onset::edge_edge_ccd({query.t0, query.t1}, options);
-}
 
 // Microseconds of one call; the shortest of three where it took long, so that being interrupted does not count.
 template <class Call>

@@ -2,6 +2,7 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "scene_command.hpp"
+#include "scene_files.hpp"
 
 namespace app {
 namespace {
@@ -25,14 +26,18 @@ onset::StepResult compute(const Scene& scene, const onset::Options& options) {
 }  // namespace
 
 void add_step(CLI::App& app, Run& run) {
-  add_scene_command(app, run, "step", "The largest step from A towards B that is certainly free of contact",
-                    "outcome,step,kind,a,b,v0,v1,v2,v3",
-                    [](const Scene& scene, const onset::Options& options, Outputs& outputs) {
-                      const onset::StepResult result = compute(scene, options);
-                      if (outputs.csv()) write_csv(*outputs.csv(), result);
-                      outputs.finish(step_json(result), describe_sizes(scene.mesh) + describe_step(result) +
-                                                            describe_stats(result.stats));
-                    });
+  const auto files = std::make_shared<SceneFiles>();
+  CLI::App* command = add_scene_command(
+      app, run, "step", "The largest step from A towards B that is certainly free of contact",
+      "outcome,step,kind,a,b,v0,v1,v2,v3",
+      [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
+        const onset::StepResult result = compute(scene, options);
+        if (outputs.csv()) write_csv(*outputs.csv(), result);
+        write_files(*files, scene, options, result);
+        outputs.finish(step_json(result),
+                       describe_sizes(scene.mesh) + describe_step(result) + describe_stats(result.stats));
+      });
+  add_scene_files(*command, *files);
 }
 
 }  // namespace app

@@ -12,6 +12,7 @@ void add_step(CLI::App& app, Run& run);
 void add_active_set(CLI::App& app, Run& run);
 void add_candidates(CLI::App& app, Run& run);
 void add_queries(CLI::App& app, Run& run);
+void add_replay(CLI::App& app, Run& run);
 void add_demo(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
 

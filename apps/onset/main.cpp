@@ -28,6 +28,7 @@ void describe(CLI::App& app) {
       "  onset step before.ply after.ply              how far the motion can go\n"
       "  onset active-set a.obj b.obj --csv -         what touches, one row a pair\n"
       "  onset queries data/edge-edge/*.csv           answers against their truth\n"
+      "  onset step a.obj b.obj --dump slow           the queries that matter, for onset replay slow-*.csv\n"
       "Exit status: 0 done, whatever the outcome is; 1 bad input, or output that cannot be written; 2 wrong "
       "usage.");
 }
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
   app::add_active_set(app, run);
   app::add_candidates(app, run);
   app::add_queries(app, run);
+  app::add_replay(app, run);
   app::add_demo(app, run);
   app::add_bench(app, run);
   describe(app);

@@ -1,5 +1,6 @@
 #include "rational.hpp"
 
+#include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <charconv>
 #include <cmath>
@@ -77,6 +78,21 @@ double exact_double(std::string_view numerator, std::string_view denominator) {
   if (std::isnan(magnitude)) throw InputError(shown(numerator, denominator) + " is not exactly a double");
   if (magnitude == 0) return 0;  // a rational has one zero
   return n.negative != d.negative ? -magnitude : magnitude;
+}
+
+std::string exact_rational(double value) {
+  if (value == 0) return "0,1";
+  int exponent = 0;
+  const double part = std::frexp(std::fabs(value), &exponent);
+  cpp_int n = std::uint64_t(std::ldexp(part, 53)), d = 1;
+  exponent -= 53;
+  const unsigned twos = exponent < 0 ? std::min(unsigned(-exponent), unsigned(lsb(n))) : 0;
+  n >>= twos;
+  if (exponent < 0)
+    d <<= unsigned(-exponent) - twos;
+  else
+    n <<= unsigned(exponent);
+  return (value < 0 ? "-" : "") + n.str() + "," + d.str();
 }
 
 }  // namespace app

@@ -24,6 +24,10 @@ Json to_json(const onset::Stats& s) {
           {"budget", to_json(s.budget)},
           {"checks", s.checks},
           {"max_checks_of_a_pair", s.max_checks_of_a_pair},
+          {"checks_histogram", s.checks_histogram},
+          {"worst", to_json(s.worst)},
+          {"looked_at", s.looked_at},
+          {"seconds_contacts", s.seconds_contacts},
           {"achieved_tolerance", s.achieved_tolerance},
           {"extent", s.extent},
           {"error_bound", s.error_bound},
@@ -69,6 +73,7 @@ Json active_set_json(const onset::ActiveSet& set) {
                {"outcome", onset::to_string(set.outcome)},
                {"tolerance", set.stats.tolerance}};
   if (set.vertex >= 0) json["vertex"] = set.vertex;
+  json["complete_until"] = std::isinf(set.complete_until) ? Json() : Json(set.complete_until);
   json["stats"] = to_json(set.stats);
   return json;
 }

@@ -7,8 +7,9 @@
 
 namespace app {
 
-void add_scene_command(CLI::App& app, Run& run, const std::string& name, const std::string& help,
-                       const std::string& csv_columns, SceneWork work) {
+CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, const std::string& help,
+                            const std::string& csv_columns, SceneWork work,
+                            std::shared_ptr<Arguments>* arguments) {
   struct Inputs : Arguments {
     std::string a, b;
   };
@@ -27,6 +28,8 @@ void add_scene_command(CLI::App& app, Run& run, const std::string& name, const s
       work(scene, options, outputs);
     };
   });
+  if (arguments) *arguments = inputs;
+  return command;
 }
 
 std::string describe_sizes(const onset::Mesh& mesh) {
