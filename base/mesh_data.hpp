@@ -2,15 +2,35 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace onset {
+
+struct PrimitiveFilter;  // base/primitive_filter.hpp
+class FixedCache;        // base/fixed_cache.hpp
 
 struct MeshData {
   int num_vertices = 0;
   std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> faces;
   std::vector<double> thickness;  // empty: none; else one value >= 0 a vertex
+
+  // Who may meet whom; empty where nothing was set.
+  std::vector<int> body;                   // a vertex; empty: all in body 0
+  std::vector<bool> fixed;                 // a vertex: static
+  std::vector<bool> rigid, no_self;        // a body
+  std::vector<std::uint32_t> group, mask;  // a vertex
+  std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;  // smaller id first, sorted, each once
+
+  std::vector<int> full_vertex;  // a vertex: its id in the full mesh; empty: its own
+  int num_full_vertices = 0;
+
+  // What follows from the above, made once (finish_mesh). Null: every primitive takes part, moves, and may
+  // meet all that it shares no vertex with.
+  std::shared_ptr<const PrimitiveFilter> filter;
+  std::shared_ptr<FixedCache> fixed_cache;  // not null where a filter has fixed primitives
 };
 
 }  // namespace onset

@@ -1,10 +1,12 @@
 #include "base/motion.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "base/fixed_cache.hpp"
 #include "base/parallel.hpp"
 
 namespace onset {
@@ -19,7 +21,8 @@ void check_shape(const char* name, int num_vertices, const Positions& x) {
                                 std::to_string(num_vertices) + " vertices and needs one row of 3 for each");
 }
 
-// x - y without rounding: the rounded difference and what it leaves (Knuth's two-sum; no overflow within kMaxCoordinate).
+// x - y without rounding: the rounded difference and what it leaves (Knuth's two-sum; no overflow within
+// kMaxCoordinate).
 struct Difference {
   double rounded, rest;
 };
@@ -30,8 +33,8 @@ Difference exact_difference(double x, double y) {
 
 // -1, 0, 1 as column i of the caller's positions comes before, with or after column j. The order depends only
 // on exact differences of positions along an axis and not on their sign, so it commutes with exchanging axes,
-// flipping them, exact translation and power-of-two scaling. Columns that tie are equal up to sign and an offset
-// and may be exchanged freely; differences that are equal only when rounded are no tie.
+// flipping them, exact translation and power-of-two scaling. Columns that tie are equal up to sign and an
+// offset and may be exchanged freely; differences that are equal only when rounded are no tie.
 int compare_columns(const Motion& m, int i, int j) {
   double sign[2] = {0, 0};
   const int column[2] = {i, j};
@@ -99,6 +102,136 @@ void find_bad_vertex(Motion& m) {
 
 }  // namespace
 
+namespace {
+
+// Largest swept extent, per axis, over elements of N vertices: those listed, or all; rounded up.
+template <std::size_t N>
+std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& elements,
+                                    const std::vector<int>* listed, const Motion& m) {
+  std::array<double, 3> widest{};
+  const std::size_t count = listed ? listed->size() : elements.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& e = elements[listed ? std::size_t((*listed)[i]) : i];
+    for (int a = 0; a < 3; ++a) {
+      double lo = m.t0(e[0])[a], hi = lo;
+      for (int v : e) {
+        lo = std::min({lo, m.t0(v)[a], m.t1(v)[a]});
+        hi = std::max({hi, m.t0(v)[a], m.t1(v)[a]});
+      }
+      widest[a] = std::max(widest[a], hi - lo);
+    }
+  }
+  for (double& w : widest) w *= 1 + 0x1p-52;  // hi - lo rounds to nearest: one ulp more is an upper bound
+  return widest;
+}
+
+// The static part of a motion just made.
+std::shared_ptr<const FixedMotion> make_fixed(const MeshData& mesh, const Motion& m) {
+  const PrimitiveFilter& filter = *mesh.filter;
+  auto fixed = std::make_shared<FixedMotion>();
+  fixed->lo.fill(INFINITY), fixed->hi.fill(-INFINITY);
+  for (int v : filter.static_ids) {
+    double x[3];
+    for (int a = 0; a < 3; ++a) x[m.axes[a]] = m.t0(v)[a];
+    for (int a = 0; a < 3; ++a) {
+      fixed->x.push_back(x[a]);
+      fixed->lo[a] = std::min(fixed->lo[a], x[a]), fixed->hi[a] = std::max(fixed->hi[a], x[a]);
+    }
+  }
+  const auto edge = largest_swept(mesh.edges, &filter.fixed[std::size_t(Primitive::edge)], m);
+  const auto face = largest_swept(mesh.faces, &filter.fixed[std::size_t(Primitive::face)], m);
+  for (int a = 0; a < 3; ++a)
+    fixed->widest_edge[m.axes[a]] = edge[a], fixed->widest_face[m.axes[a]] = face[a];
+  return fixed;
+}
+
+// The widths of the scene in order, from the free vertices and what is known of the others; false where a
+// position is not usable or two widths are equal.
+bool axes_from_widths(const PrimitiveFilter& filter, const FixedMotion& fixed, const Positions& x_t0,
+                      const Positions& x_t1, std::array<int, 3>& axes) {
+  std::array<double, 3> width{};
+  for (int a = 0; a < 3; ++a) {
+    double lo = fixed.lo[a], hi = fixed.hi[a];
+    for (int v : filter.free_ids)
+      for (const double x : {x_t0(v, a), x_t1(v, a)}) {
+        if (!(std::fabs(x) <= kMaxCoordinate)) return false;
+        lo = std::min(lo, x), hi = std::max(hi, x);
+      }
+    width[a] = hi - lo;
+  }
+  axes = {0, 1, 2};
+  std::sort(axes.begin(), axes.end(), [&](int i, int j) { return width[i] > width[j]; });
+  return width[axes[0]] > width[axes[1]] && width[axes[1]] > width[axes[2]];
+}
+
+// The motion of a mesh whose static vertices are where they were; empty where they are not, or anything else
+// wants a closer look.
+Motion motion_around(const MeshData& mesh, std::shared_ptr<const FixedMotion> fixed, const Positions& x_t0,
+                     const Positions& x_t1) {
+  const PrimitiveFilter& filter = *mesh.filter;
+  Motion m;
+  if (!axes_from_widths(filter, *fixed, x_t0, x_t1, m.axes)) return {};
+  m.x = AlignedArray<double>(std::size_t(mesh.num_vertices) * kMotionStride);
+  const auto fill = [&](int v) {
+    double* x = m.x.data() + std::size_t(v) * kMotionStride;
+    for (int a = 0; a < 3; ++a) x[a] = x_t0(v, m.axes[a]), x[4 + a] = x_t1(v, m.axes[a]);
+    x[3] = x[7] = 0;
+    return x;
+  };
+  for (int v : filter.free_ids) fill(v);
+  std::atomic<bool> same{true};
+  parallel_ranges(filter.static_ids.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    bool mine = true;
+    for (std::size_t k = first; k < last; ++k) {
+      const double *x = fill(filter.static_ids[k]), *y = fixed->x.data() + 3 * k;
+      for (int a = 0; a < 3; ++a) mine &= (x[a] == y[m.axes[a]]) & (x[4 + a] == y[m.axes[a]]);
+    }
+    if (!mine) same = false;
+  });
+  if (!same) return {};
+  m.num_vertices = mesh.num_vertices;
+  m.fixed = std::move(fixed);
+  return m;
+}
+
+void check_rows(const MeshData& mesh, const char* name, const Positions& x) {
+  if (x.cols() == 3 && x.rows() != mesh.num_vertices && x.rows() == mesh.num_full_vertices)
+    throw std::invalid_argument(std::string(name) + " has the " + std::to_string(x.rows()) +
+                                " rows of the full mesh; the surface has " +
+                                std::to_string(mesh.num_vertices) + ": pass Mesh::surface_positions(" + name +
+                                ")");
+  check_shape(name, mesh.num_vertices, x);
+}
+
+}  // namespace
+
+Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
+  check_rows(mesh, "x_t0", x_t0);
+  check_rows(mesh, "x_t1", x_t1);
+  const bool cached = mesh.filter && mesh.filter->has_fixed();
+  auto fixed = cached ? mesh.fixed_cache->get<FixedMotion>(FixedCache::motion) : nullptr;
+  if (fixed)
+    if (Motion m = motion_around(mesh, fixed, x_t0, x_t1); m.fixed) return m;
+  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1);
+  if (m.status != Outcome::free || !mesh.filter) return m;
+  bool same = fixed != nullptr;
+  for (std::size_t k = 0; k < mesh.filter->static_ids.size(); ++k) {
+    const int v = mesh.filter->static_ids[k];
+    for (int a = 0; a < 3; ++a) {
+      if (m.t0(v)[a] != m.t1(v)[a])
+        throw std::invalid_argument("vertex " + std::to_string(v) + " is static, but x_t0 and x_t1 differ");
+      same = same && m.t0(v)[a] == fixed->x[3 * k + std::size_t(m.axes[a])];
+    }
+  }
+  if (!cached) return m;
+  if (!same) {
+    fixed = make_fixed(mesh, m);
+    mesh.fixed_cache->put(FixedCache::motion, fixed);
+  }
+  m.fixed = std::move(fixed);
+  return m;
+}
+
 Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1) {
   check_shape("x_t0", num_vertices, x_t0);
   check_shape("x_t1", num_vertices, x_t1);
@@ -141,34 +274,25 @@ double Extents::largest() const {
   return r;
 }
 
-namespace {
-
-// Largest swept extent, per axis, over elements of N vertices; rounded up.
-template <std::size_t N>
-std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& elements, const Motion& m) {
-  std::array<double, 3> widest{};
-  for (const auto& e : elements)
-    for (int a = 0; a < 3; ++a) {
-      double lo = m.t0(e[0])[a], hi = lo;
-      for (int v : e) {
-        lo = std::min({lo, m.t0(v)[a], m.t1(v)[a]});
-        hi = std::max({hi, m.t0(v)[a], m.t1(v)[a]});
-      }
-      widest[a] = std::max(widest[a], hi - lo);
-    }
-  for (double& w : widest) w *= 1 + 0x1p-52;  // hi - lo rounds to nearest: one ulp more is an upper bound
-  return widest;
-}
-
-}  // namespace
-
 Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
   Extents r;
-  const auto edge = largest_swept(mesh.edges, m);
-  const auto face = largest_swept(mesh.faces, m);
+  const PrimitiveFilter* filter = mesh.filter && !mesh.filter->all ? mesh.filter.get() : nullptr;
+  const auto listed = [&](Primitive kind) { return filter ? &filter->moving[std::size_t(kind)] : nullptr; };
+  auto edge = largest_swept(mesh.edges, listed(Primitive::edge), m);
+  auto face = largest_swept(mesh.faces, listed(Primitive::face), m);
+  if (filter && filter->has_fixed()) {
+    const auto fixed = m.fixed ? m.fixed : make_fixed(mesh, m);
+    for (int a = 0; a < 3; ++a) {
+      edge[a] = std::max(edge[a], fixed->widest_edge[m.axes[a]]);
+      face[a] = std::max(face[a], fixed->widest_face[m.axes[a]]);
+    }
+  }
   std::array<double, 3> moved{};
-  for (int v = 0; v < m.num_vertices; ++v)
+  const std::size_t vertices = filter ? filter->moving_vertices.size() : std::size_t(m.num_vertices);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    const int v = filter ? filter->moving_vertices[i] : int(i);
     for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], std::fabs(m.t1(v)[a] - m.t0(v)[a]));
+  }
   for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor (1 + 4u)
     if (!mesh.faces.empty()) r.vertex_face[a] = (moved[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
     if (!mesh.edges.empty()) r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <vector>
 
 #include "base/aligned.hpp"
-#include "base/mesh_data.hpp"
+#include "base/primitive_filter.hpp"
 #include "onset/result.hpp"
 #include "onset/views.hpp"
 
@@ -16,6 +18,13 @@ inline constexpr double kMaxCoordinate = 0x1p1020;  // beyond this a difference 
 // One cache line a vertex: x y z 0 at t = 0, x y z 0 at t = 1.
 inline constexpr int kMotionStride = 8;
 
+// What the steps have in common as long as static vertices stay where they are; immutable.
+struct FixedMotion {
+  std::vector<double> x;                              // x y z of each static vertex, in the order of ids
+  std::array<double, 3> lo{}, hi{};                   // of these, per column
+  std::array<double, 3> widest_edge{}, widest_face{};  // of the static primitives that take part, rounded up
+};
+
 // The three axes are stored in an order that depends on the motion only up to a permutation of axes (see
 // canonical_axes), so that everything after this is bit for bit the same for a scene with its axes exchanged.
 struct Motion {
@@ -24,6 +33,7 @@ struct Motion {
   std::array<int, 3> axes{0, 1, 2};  // axes[i]: the caller's column stored as axis i
   Outcome status = Outcome::free;    // free, non_finite or out_of_range
   int bad_vertex = -1;
+  std::shared_ptr<const FixedMotion> fixed;  // null where no static primitive takes part, or status is not free
 
   const double* t0(int v) const { return x.data() + std::size_t(v) * kMotionStride; }
   const double* t1(int v) const { return x.data() + std::size_t(v) * kMotionStride + 4; }
@@ -31,6 +41,10 @@ struct Motion {
 
 // Throws std::invalid_argument when a row count differs from num_vertices or there are not 3 columns.
 Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1);
+
+// The same for all of a mesh; in addition throws std::invalid_argument naming the first static vertex whose
+// finite positions differ.
+Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1);
 
 // Checks the positions already stored in m.x and brings the axes into canonical order.
 void finish_motion(Motion& m);
@@ -41,7 +55,7 @@ double rounding_of_distances(const Motion& m);
 
 // Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j|
 // (edge-edge) that a pair with overlapping swept boxes can have (each side of the pair spans its swept
-// extent, and the boxes are at most `gap` apart): R <= w(A) + w(B) + gap.
+// extent, and the boxes are at most `gap` apart): R <= w(A) + w(B) + gap. Of primitives that take part.
 struct Extents {
   std::array<double, 3> vertex_face{}, edge_edge{};
   double largest() const;  // over kinds and axes

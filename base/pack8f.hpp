@@ -60,6 +60,7 @@ inline I8 operator+(I8 a, I8 b) { return {_mm256_add_epi32(a.v, b.v)}; }
 inline I8 min(I8 a, I8 b) { return {_mm256_min_epi32(a.v, b.v)}; }
 inline I8 max(I8 a, I8 b) { return {_mm256_max_epi32(a.v, b.v)}; }
 inline I8 operator|(I8 a, I8 b) { return {_mm256_or_si256(a.v, b.v)}; }
+inline I8 operator&(I8 a, I8 b) { return {_mm256_and_si256(a.v, b.v)}; }
 inline I8 operator==(I8 a, I8 b) { return {_mm256_cmpeq_epi32(a.v, b.v)}; }  // all bits of a lane
 inline int mask_true(I8 a) { return _mm256_movemask_ps(_mm256_castsi256_ps(a.v)); }
 inline I8 lane_numbers() { return {_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)}; }
@@ -142,6 +143,7 @@ inline I8 operator+(I8 a, I8 b) { return {a.lo + b.lo, a.hi + b.hi}; }
 inline I8 min(I8 a, I8 b) { return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? a.hi : b.hi}; }
 inline I8 max(I8 a, I8 b) { return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi}; }
 inline I8 operator|(I8 a, I8 b) { return {a.lo | b.lo, a.hi | b.hi}; }
+inline I8 operator&(I8 a, I8 b) { return {a.lo & b.lo, a.hi & b.hi}; }
 inline I8 operator==(I8 a, I8 b) { return {a.lo == b.lo, a.hi == b.hi}; }  // all bits of a lane
 inline I8 lane_numbers() { return {Int4{0, 1, 2, 3}, Int4{4, 5, 6, 7}}; }
 

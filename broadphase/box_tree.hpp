@@ -20,12 +20,16 @@ const BvhKernel& bvh_kernel(Kernel kernel);  // scalar or avx2
 
 class BoxTree {
  public:
-  BoxTree(const MeshData& mesh, Primitive kind, const VertexOrder& order);
+  // Of the primitives listed, whose vertices all have a rank. `alone`: it is traversed against itself and
+  // other trees of the same order only; else vertices are told apart by ids, which all orders share.
+  BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order, bool alone);
 
-  // New boxes. `vertices`: supports of all vertices by rank, used where no primitive has an inflation of its
-  // own.
-  void fit(const BroadPhaseInput& input, const FloatMap& map, const Supports& vertices);
+  // New boxes, widened by `inflation` and the primitives' own thickness. `vertices`: supports of the vertices
+  // by rank, widened alike, used where no primitive has an inflation of its own.
+  void fit(const BroadPhaseInput& input, double inflation, const FloatMap& map, const Supports& vertices);
 
+  // Whether the unions of the boxes of both trees, fitted, are apart.
+  bool apart(const BoxTree& other, bool motion) const;
   std::size_t units() const { return (blocks() + kBlock - 1) / kBlock; }  // of traversal: blocks at level 1
   const TreeView& view() const { return view_; }
   int rounded_axes() const { return rounded_axes_; }
@@ -33,11 +37,13 @@ class BoxTree {
  private:
   std::size_t blocks() const { return ids_.size() / kBlock; }
   void lay_out(bool motion);
+  void make_keys(const MeshData& mesh);
 
   Primitive kind_;
   std::size_t count_;
   int rounded_axes_ = 0;
-  AlignedArray<int> ids_, vertices_;  // see TreeView
+  AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_: ranks
+  std::vector<int> names_, bodies_, keys_;  // names_: vertices_ as ids, empty where ranks will do
   AlignedArray<float> boxes_;
   TreeView view_{};
 };

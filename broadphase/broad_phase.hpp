@@ -25,15 +25,21 @@ struct BroadPhaseInput {
   double horizon = 1;  // only the motion on [0, horizon] matters; horizon 1 means the exact end positions
   BoxTest test = BoxTest::motion;
   Kernel kernel = Kernel::automatic;
+  // For primitives all of whose vertices are static, in place of `inflation`; < 0: the same. Their boxes are
+  // kept with the mesh from call to call as long as this stays what it was.
+  double fixed_inflation = -1;
 };
 
-// Pairs that share a vertex are never emitted; every other pair that passes the test is emitted exactly once.
+// Emits each pair that the mesh lets meet (may_meet in base/primitive_filter.hpp) and that passes the test,
+// exactly once.
 class BroadPhase : public PairSource {
  public:
   virtual const char* name() const = 0;
   // New boxes in the memory and the order already there: another motion, horizon, inflation or test over the
   // same mesh (the same MeshData object). Afterwards as if made from `input`, up to the order of pairs.
   virtual void refit(const BroadPhaseInput& input) = 0;
+  // Whether boxes of static primitives were made, not taken from an earlier call.
+  virtual bool made_fixed_boxes() const { return false; }
 };
 
 // `input.mesh` and `input.motion` must outlive the result, or its use up to the next refit.

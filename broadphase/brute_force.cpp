@@ -21,33 +21,32 @@ class BruteForce final : public BroadPhase {
   void refit(const BroadPhaseInput& input) override {
     test_ = input.test;
     finite_ = input.motion.status == Outcome::free;
-    for (Primitive kind : {Primitive::vertex, Primitive::edge, Primitive::face})
-      boxes_[std::size_t(kind)] = motion_boxes(input, kind);
+    for (Primitive kind : kPrimitives) boxes_[std::size_t(kind)] = motion_boxes(input, kind);
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return !finite_ || boxes(second_primitive(kind)).empty()
+    return !finite_ || boxes(second_primitive(kind)).ids.empty()
                ? 0
-               : (boxes(first_primitive(kind)).size() + kRows - 1) / kRows;
+               : (boxes(first_primitive(kind)).ids.size() + kRows - 1) / kRows;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
-    const auto &A = boxes(first_primitive(kind)), &B = boxes(second_primitive(kind));
+    const MotionBoxes &A = boxes(first_primitive(kind)), &B = boxes(second_primitive(kind));
     PairBatch batch(sink);
-    for (std::size_t a = first * kRows; a < std::min(last * kRows, A.size()); ++a)
-      for (std::size_t b = kind == PairKind::edge_edge ? a + 1 : 0; b < B.size(); ++b)
-        if (boxes_pass(test_, A[a], B[b]) && !share_vertex(mesh_, kind, int(a), int(b)))
-          batch.add(int(a), int(b));
+    for (std::size_t i = first * kRows; i < std::min(last * kRows, A.ids.size()); ++i)
+      for (std::size_t j = kind == PairKind::edge_edge ? i + 1 : 0; j < B.ids.size(); ++j)
+        if (boxes_pass(test_, A.boxes[i], B.boxes[j]) && may_meet(mesh_, kind, A.ids[i], B.ids[j]))
+          batch.add(A.ids[i], B.ids[j]);
     batch.flush();
   }
 
  private:
-  const std::vector<MotionBox>& boxes(Primitive kind) const { return boxes_[std::size_t(kind)]; }
+  const MotionBoxes& boxes(Primitive kind) const { return boxes_[std::size_t(kind)]; }
 
   const MeshData& mesh_;
   BoxTest test_ = BoxTest::motion;
   bool finite_ = true;
-  std::array<std::vector<MotionBox>, 3> boxes_;
+  std::array<MotionBoxes, 3> boxes_;
 };
 
 }  // namespace

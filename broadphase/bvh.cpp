@@ -1,77 +1,140 @@
 #include "broadphase/bvh.hpp"
 
 #include <optional>
+#include <vector>
 
 #include "base/dispatch.hpp"
 #include "base/parallel.hpp"
 #include "broadphase/box_tree.hpp"
+#include "broadphase/fixed_trees.hpp"
 
 namespace onset {
 
 namespace {
 
-constexpr std::array<Primitive, 3> kKinds{Primitive::vertex, Primitive::edge, Primitive::face};
-
 class Bvh final : public BroadPhase {
  public:
   explicit Bvh(const BroadPhaseInput& input) {
-    const FloatMap map(input.motion);
-    order_ = make_vertex_order(input.motion, map);
-    parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) trees_[k].emplace(input.mesh, kKinds[k], order_);
+    const MeshData& mesh = input.mesh;
+    const PrimitiveFilter* filter = mesh.filter.get();
+    const bool all = !filter || filter->all;
+    const bool alone = !filter || !filter->has_fixed();
+    finite_ = input.motion.status == Outcome::free;
+    if (!alone && finite_) fixed_ = fixed_trees(input, made_fixed_);
+    const FloatMap map = fixed_ ? fixed_->map : FloatMap(input.motion);
+    const auto listed = [&](const std::vector<int>& ids) { return IdList{ids.data(), ids.size()}; };
+    order_ = make_vertex_order(
+        input.motion, map,
+        all ? IdList{nullptr, std::size_t(mesh.num_vertices)} : listed(filter->moving_vertices));
+    parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k)
+        trees_[k].emplace(
+            mesh, kPrimitives[k],
+            all ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])} : listed(filter->moving[k]), order_,
+            alone);
     });
     fit(input, map);
   }
 
   const char* name() const override { return "bvh"; }
+  bool made_fixed_boxes() const override { return made_fixed_; }
 
-  void refit(const BroadPhaseInput& input) override { fit(input, FloatMap(input.motion)); }
+  void refit(const BroadPhaseInput& input) override {
+    finite_ = input.motion.status == Outcome::free;
+    if (finite_ && input.mesh.filter && input.mesh.filter->has_fixed()) {
+      bool made = false;
+      fixed_ = fixed_trees(input, made);
+      made_fixed_ = made_fixed_ || made;
+    }
+    fit(input, fixed_ ? fixed_->map : FloatMap(input.motion));
+  }
 
   std::size_t blocks(PairKind kind) const override {
-    const bool finite = input_->motion.status == Outcome::free;
-    return finite && tree(second_primitive(kind)).units() > 0 ? tree(first_primitive(kind)).units() : 0;
+    const auto& couples = couples_[std::size_t(kind)];
+    return couples.empty() ? 0 : couples.back().end;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
-    const BoxTree &query = tree(first_primitive(kind)), &other = tree(second_primitive(kind));
-    const Touch touch{*input_, kind};
+    std::size_t begin = 0;
+    for (const Couple& couple : couples_[std::size_t(kind)]) {
+      const std::size_t from = std::max(first, begin), to = std::min(last, couple.end);
+      if (from < to) traverse(kind, couple, from - begin, to - begin, sink);
+      begin = couple.end;
+    }
+  }
+
+ private:
+  // Two trees that are traversed together; its blocks are those up to `end` that no couple before has.
+  struct Couple {
+    const BoxTree *query, *other;
+    std::size_t end;
+  };
+
+  struct Decide {
+    const BroadPhaseInput& input;
+    PairKind kind;
+    static bool touch(const void* context, int a, int b) {
+      const Decide& d = *static_cast<const Decide*>(context);
+      return boxes_pass(d.input.test, motion_box(d.input, first_primitive(d.kind), a),
+                        motion_box(d.input, second_primitive(d.kind), b));
+    }
+    static bool excluded(const void* context, int a, int b) {
+      const Decide& d = *static_cast<const Decide*>(context);
+      return onset::excluded(d.input.mesh, d.kind, a, b);
+    }
+  };
+
+  void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
+                const PairSink& sink) const {
+    const Decide decide{*input_, kind};
     TraverseArguments arguments{};
-    arguments.query = query.view(), arguments.tree = other.view();
+    arguments.query = couple.query->view(), arguments.tree = couple.other->view();
     arguments.motion = input_->test == BoxTest::motion;
-    arguments.self = kind == PairKind::edge_edge;
-    arguments.rounded_axes = query.rounded_axes() | other.rounded_axes();
+    arguments.edges = kind == PairKind::edge_edge;
+    arguments.self = couple.query == couple.other;
+    arguments.keyed = arguments.query.keys != nullptr;
+    arguments.rounded_axes = couple.query->rounded_axes() | couple.other->rounded_axes();
     arguments.first = first, arguments.last = last;
-    arguments.touches = Touch::decide, arguments.touches_context = &touch;
+    arguments.touches = Decide::touch, arguments.excluded = Decide::excluded, arguments.context = &decide;
     arguments.consume = sink.consume, arguments.consume_context = sink.context;
     bvh_kernel(input_->kernel).traverse(arguments);
   }
 
- private:
-  struct Touch {
-    const BroadPhaseInput& input;
-    PairKind kind;
-    static bool decide(const void* context, int a, int b) {
-      const Touch& t = *static_cast<const Touch*>(context);
-      return boxes_pass(t.input.test, motion_box(t.input, first_primitive(t.kind), a),
-                        motion_box(t.input, second_primitive(t.kind), b));
-    }
-  };
-
   void fit(const BroadPhaseInput& input, const FloatMap& map) {
     input_.emplace(input);
     input_->kernel = resolve_kernel(input.kernel);
+    const double inflation = part_inflation(input, false);
     const Supports vertices =
-        make_supports(*input_, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());
-    parallel_ranges(kKinds.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, map, vertices);
+        make_supports(*input_, inflation, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());
+    parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, inflation, map, vertices);
     });
+    for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) couple(kind);
   }
 
-  const BoxTree& tree(Primitive kind) const { return *trees_[std::size_t(kind)]; }
+  // Static against static is never among them.
+  void couple(PairKind kind) {
+    auto& couples = couples_[std::size_t(kind)];
+    couples.clear();
+    if (!finite_) return;
+    const std::size_t a = std::size_t(first_primitive(kind)), b = std::size_t(second_primitive(kind));
+    add(couples, *trees_[a], *trees_[b]);
+    if (!fixed_) return;
+    const bool motion = input_->test == BoxTest::motion;
+    if (!trees_[a]->apart(*fixed_->trees[b], motion)) add(couples, *trees_[a], *fixed_->trees[b]);
+    if (a != b && !fixed_->trees[a]->apart(*trees_[b], motion)) add(couples, *fixed_->trees[a], *trees_[b]);
+  }
+  static void add(std::vector<Couple>& couples, const BoxTree& query, const BoxTree& other) {
+    if (query.units() == 0 || other.units() == 0) return;
+    couples.push_back({&query, &other, (couples.empty() ? 0 : couples.back().end) + query.units()});
+  }
 
   VertexOrder order_;
+  bool finite_ = false, made_fixed_ = false;
   std::optional<BroadPhaseInput> input_;
   std::array<std::optional<BoxTree>, 3> trees_;
+  std::shared_ptr<const FixedTrees> fixed_;
+  std::array<std::vector<Couple>, 2> couples_;
 };
 
 }  // namespace

@@ -30,6 +30,10 @@ struct TreeView {
   int levels;
   const int* ids;       // 8 a leaf block
   const int* vertices;  // ranks or ids; 8 a vertex of the primitive a leaf block
+  // Null unless pairs are kept apart (base/primitive_filter.hpp). bodies: eight a block, PrimitiveKey::body of
+  // what all of a lane has in common, 0 where it has not. keys: three rows of 8 a leaf block: flags, group, mask.
+  const int* bodies[kMaxLevels];
+  const int* keys;
 };
 
 struct FitArguments {
@@ -44,13 +48,16 @@ struct FitArguments {
 struct TraverseArguments {
   TreeView query, tree;
   bool motion;
-  bool self;  // edges against edges, one tree: each unordered pair once, smaller id first; else vertices
-              // against faces
+  bool edges;  // edges against edges, smaller id first; else vertices against faces
+  bool self;   // one tree of edges: each unordered pair once
+  bool keyed;  // both trees have bodies and keys, which are tested; always so for two trees of edges
   int rounded_axes;         // bit i: equal floats on axis i need not be equal doubles
   std::size_t first, last;  // blocks at level 1 of `query`: 64 primitives each
   // Decides pairs that only touch in float.
   bool (*touches)(const void* context, int a, int b);
-  const void* touches_context;
+  // Decides pairs both of whose keys have kExcludedFlag.
+  bool (*excluded)(const void* context, int a, int b);
+  const void* context;  // of both
   void (*consume)(void* context, const IdPair* pairs, std::size_t count);
   void* consume_context;
 };

@@ -24,7 +24,7 @@ struct Pairs {
 // Two trees descended side by side. Every step is a loop over a list that writes the next list without
 // branches, eight entries at a time and as many of them counted as the test says; a list that is full is
 // emptied downward first, so memory is constant and the work depth first.
-template <bool kMotion, bool kSelf>
+template <bool kMotion, bool kEdges, bool kSelf, bool kKeyed>
 class Traversal {
  public:
   explicit Traversal(const TraverseArguments& arguments) : t_(arguments) {}
@@ -43,7 +43,7 @@ class Traversal {
  private:
   static constexpr int kRows = kRowsOf[kMotion];
   static constexpr int kBoxStride = kBoxStrideOf[kMotion];
-  static constexpr int kOwn = kSelf ? 2 : 1, kOther = kSelf ? 2 : 3;  // vertices of a primitive
+  static constexpr int kOwn = kEdges ? 2 : 1, kOther = kEdges ? 2 : 3;  // vertices of a primitive
 
   static const float* block_of(const TreeView& tree, int level, unsigned n) {
     return tree.level[level] + std::size_t(n) * (kRows * kLanes);
@@ -59,6 +59,17 @@ class Traversal {
     const float* block(unsigned n) const { return boxes + std::size_t(n) * (kRows * kLanes); }
     const float* box(unsigned slot) const { return block(slot / kBlock) + slot % kBlock; }
   };
+
+  // Lanes of a block at `level` of `tree` that lie within one body as a whole, the body given, which does not
+  // meet itself.
+  static int within(int body, const TreeView& tree, int level, unsigned block) {
+    const I8 bodies = load(tree.bodies[level] + std::size_t(block) * kBlock);
+    return mask_true((broadcast(body) == bodies) & bodies);
+  }
+  // The body of a whole block at `level`, which is a lane of the level above.
+  static int body_of(const TreeView& tree, int level, unsigned block) {
+    return tree.bodies[level + 1][block];
+  }
 
   // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
   void empty_blocks(int level) {
@@ -76,6 +87,7 @@ class Traversal {
     for (int e = 0; e < from.count; ++e) {
       const int q = from.a[e], n = from.b[e];
       int mask = mask_not_negative(overlap<kMotion>(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n)));
+      if (kKeyed) mask &= ~within(body_of(t_.query, 1, unsigned(q)), t_.tree, level, unsigned(n));
       if (kSelf) {  // nothing before q itself
         const int skip = (q >> 3 * (level - 2)) - n * kBlock;
         mask &= 0xff << (skip > 0 ? skip : 0);
@@ -90,8 +102,9 @@ class Traversal {
     const Pairs& from = blocks_[level];
     for (int e = 0; e < from.count; ++e) {
       const int a = from.a[e], b = from.b[e];
-      const int mask =
+      int mask =
           mask_not_negative(overlap<kMotion>(box_of(t_.tree, level, b), 1, block_of(t_.query, level, a)));
+      if (kKeyed) mask &= ~within(body_of(t_.tree, level, unsigned(b)), t_.query, level, unsigned(a));
       children_[level].add(compress(lane_numbers() + broadcast(a * kBlock), mask), broadcast(b), mask);
       if (children_[level].full()) empty_children(level);
     }
@@ -116,8 +129,9 @@ class Traversal {
     for (int e = 0; e < from.count; ++e) {
       const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
       const float* box = block_of(t_.query, level, c / kBlock) + c % kBlock;
-      const int mask =
+      int mask =
           mask_not_negative(overlap<kMotion>(box, kLanes, block_of(t_.tree, level, b))) & unpaired(c, b);
+      if (kKeyed) mask &= ~within(t_.query.bodies[level][c], t_.tree, level, b);
       to.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), mask), mask);
       if (to.full()) empty_blocks(level - 1);
     }
@@ -133,12 +147,14 @@ class Traversal {
       const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
       const float* box = query.box(c);
       const F8 depth = overlap<kMotion>(box, kLanes, tree.block(b));
-      const I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
-                                tree.vertices + std::size_t(b) * (kOther * kBlock));
+      I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
+                          tree.vertices + std::size_t(b) * (kOther * kBlock));
+      if (kKeyed) shared = shared | apart(c, b);
       int mask = mask_neither_negative(depth, shared) & unpaired(c, b);
       if (rounded && (mask & mask_zero(depth)) != 0) mask = settle(mask, c, b);
+      if (kKeyed) mask = without_excluded(mask, c, b);
       const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
-      if (kSelf)
+      if (kEdges)
         store_interleaved(&out->a, min(same, others), max(same, others));
       else
         store_interleaved(&out->a, same, others);
@@ -161,14 +177,39 @@ class Traversal {
     return shared;
   }
 
+  const int* key_of(unsigned slot) const {
+    return t_.query.keys + std::size_t(slot / kBlock) * (3 * kBlock) + slot % kBlock;
+  }
+
+  // The sign of each lane whose key cannot meet that of c: keys_meet in base/primitive_filter.hpp, but for
+  // two static primitives, whose trees are never traversed together.
+  I8 apart(unsigned c, unsigned b) const {
+    const int *own = key_of(c), *keys = t_.tree.keys + std::size_t(b) * (3 * kBlock);
+    const I8 bodies = load(t_.tree.bodies[0] + std::size_t(b) * kBlock), none = broadcast(0);
+    const I8 same_body = (broadcast(t_.query.bodies[0][c]) == bodies) & bodies;
+    const I8 masked = ((broadcast(own[kBlock]) & load(keys + 2 * kBlock)) == none) |
+                      ((broadcast(own[2 * kBlock]) & load(keys + kBlock)) == none);
+    return same_body | masked;
+  }
+
+  int without_excluded(int mask, unsigned c, unsigned b) const {
+    if ((key_of(c)[0] & 1) == 0) return mask;
+    const int* flags = t_.tree.keys + std::size_t(b) * (3 * kBlock);
+    for (int open = mask; open != 0; open &= open - 1) {
+      const int lane = lowest_lane(open);
+      if ((flags[lane] & 1) != 0 && t_.excluded(t_.context, t_.query.ids[c], t_.tree.ids[b * kBlock + lane]))
+        mask &= ~(1 << lane);
+    }
+    return mask;
+  }
+
   // Takes out the lanes that touch in float but not in double.
   int settle(int mask, unsigned c, unsigned b) const {
     int open = touching<kMotion>(mask, t_.rounded_axes, block_of(t_.query, 0, c / kBlock) + c % kBlock,
                                  block_of(t_.tree, 0, b));
     for (; open != 0; open &= open - 1) {
       const int lane = lowest_lane(open);
-      if (!t_.touches(t_.touches_context, t_.query.ids[c], t_.tree.ids[b * kBlock + lane]))
-        mask &= ~(1 << lane);
+      if (!t_.touches(t_.context, t_.query.ids[c], t_.tree.ids[b * kBlock + lane])) mask &= ~(1 << lane);
     }
     return mask;
   }
@@ -184,13 +225,21 @@ class Traversal {
   IdPair out_[kBatchSize];
 };
 
+template <bool kMotion>
+void traverse_boxes(const TraverseArguments& a) {
+  if (a.edges && !a.self)
+    Traversal<kMotion, true, false, true>(a).run();
+  else if (a.edges)
+    a.keyed ? Traversal<kMotion, true, true, true>(a).run() : Traversal<kMotion, true, true, false>(a).run();
+  else
+    a.keyed ? Traversal<kMotion, false, false, true>(a).run()
+            : Traversal<kMotion, false, false, false>(a).run();
+}
+
 }  // namespace
 
 void traverse(const TraverseArguments& arguments) {
-  if (arguments.self)
-    arguments.motion ? Traversal<true, true>(arguments).run() : Traversal<false, true>(arguments).run();
-  else
-    arguments.motion ? Traversal<true, false>(arguments).run() : Traversal<false, false>(arguments).run();
+  arguments.motion ? traverse_boxes<true>(arguments) : traverse_boxes<false>(arguments);
 }
 
 }  // namespace ONSET_KERNEL

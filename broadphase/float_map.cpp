@@ -42,6 +42,11 @@ FloatMap::FloatMap(const Motion& motion) {
   }
 }
 
+bool FloatMap::suits(const Motion& motion) const {
+  const auto samples = sample(motion);
+  return samples[0].empty() || separates(samples);
+}
+
 void FloatMap::fit_linear(const std::array<std::vector<double>, 3>& samples) {
   double spread = 0, furthest = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -21,6 +21,10 @@ class FloatMap {
  public:
   explicit FloatMap(const Motion& motion);
 
+  // Whether it tells the vertices of this motion apart, mostly: a map made for another motion is as correct,
+  // but may leave many pairs to be decided in double.
+  bool suits(const Motion& motion) const;
+
   float operator()(double x, std::size_t axis) const {
     if (!knots_[axis].empty()) return between_knots(x, axis);
     return to_float((x - centre_[axis]) * scale_);

@@ -1,6 +1,8 @@
 #include "broadphase/motion_box.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "broadphase/interval.hpp"
@@ -27,29 +29,26 @@ bool motion_overlap(const MotionBox& a, const MotionBox& b) {
 
 }  // namespace
 
-std::size_t primitive_count(const MeshData& mesh, Primitive kind) {
-  switch (kind) {
-    case Primitive::edge:
-      return mesh.edges.size();
-    case Primitive::face:
-      return mesh.faces.size();
-    default:
-      return std::size_t(mesh.num_vertices);
-  }
-}
+namespace {
 
-double primitive_inflation(const BroadPhaseInput& input, Primitive kind, int id) {
+double widest(const BroadPhaseInput& input, Primitive kind, int id, double inflation) {
   const std::vector<double>& thickness = input.mesh.thickness;
-  if (thickness.empty()) return input.inflation;
+  if (thickness.empty()) return inflation;
   double largest = 0;
   for (int v : primitive_vertices(input.mesh, kind, id))
     largest = std::max(largest, thickness[std::size_t(v)]);
-  return widen_up(input.inflation, largest);
+  return widen_up(inflation, largest);
 }
 
+}  // namespace
+
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id) {
+  return motion_box(input, kind, id, part_inflation(input, is_fixed(input.mesh, kind, id)));
+}
+
+MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, double inflation) {
   const std::array<int, 3> vertices = primitive_vertices(input.mesh, kind, id);
-  const double r = primitive_inflation(input, kind, id);
+  const double r = widest(input, kind, id, inflation);
   MotionBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     const double *t0 = input.motion.t0(vertices[0]), *t1 = input.motion.t1(vertices[0]);
@@ -67,24 +66,26 @@ MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id) {
   return box;
 }
 
-std::vector<MotionBox> motion_boxes(const BroadPhaseInput& input, Primitive kind) {
-  std::vector<MotionBox> boxes(primitive_count(input.mesh, kind));
-  parallel_ranges(boxes.size(), 1024, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) boxes[i] = motion_box(input, kind, int(i));
+MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind) {
+  MotionBoxes result;
+  const PrimitiveFilter* filter = input.mesh.filter.get();
+  if (!filter || filter->all) {
+    result.ids.resize(primitive_count(input.mesh, kind));
+    std::iota(result.ids.begin(), result.ids.end(), 0);
+  } else {
+    const std::vector<int>&moving = filter->moving[std::size_t(kind)],
+          &fixed = filter->fixed[std::size_t(kind)];
+    std::merge(moving.begin(), moving.end(), fixed.begin(), fixed.end(), std::back_inserter(result.ids));
+  }
+  result.boxes.resize(result.ids.size());
+  parallel_ranges(result.boxes.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) result.boxes[i] = motion_box(input, kind, result.ids[i]);
   });
-  return boxes;
+  return result;
 }
 
 bool boxes_pass(BoxTest test, const MotionBox& a, const MotionBox& b) {
   return test == BoxTest::swept ? swept_overlap(a, b) : motion_overlap(a, b);
-}
-
-bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b) {
-  const auto first = primitive_vertices(mesh, first_primitive(kind), a);
-  const auto second = primitive_vertices(mesh, second_primitive(kind), b);
-  for (int v : first)
-    if (std::find(second.begin(), second.end(), v) != second.end()) return true;
-  return false;
 }
 
 }  // namespace onset

@@ -16,13 +16,15 @@ constexpr std::size_t kEntriesEach = 8;      // cells a primitive may cover on a
 constexpr std::size_t kEntriesABlock = 512;  // of traversal, more where one cell holds more
 
 struct Boxes {
+  std::vector<int> ids;
   std::vector<MotionBox> exact;
   std::vector<FloatBox> swept;
 };
 
 Boxes make_boxes(const BroadPhaseInput& input, const FloatMap& map, Primitive kind) {
   Boxes boxes;
-  boxes.exact = motion_boxes(input, kind);
+  MotionBoxes made = motion_boxes(input, kind);
+  boxes.ids = std::move(made.ids), boxes.exact = std::move(made.boxes);
   boxes.swept.reserve(boxes.exact.size());
   for (const MotionBox& b : boxes.exact) {
     FloatBox f;
@@ -37,7 +39,7 @@ Boxes make_boxes(const BroadPhaseInput& input, const FloatMap& map, Primitive ki
 
 struct Entry {
   std::uint64_t cell;
-  int id;
+  int id;       // place in its side
   bool second;  // side of the pair
 };
 
@@ -123,8 +125,7 @@ class SpatialHash final : public BroadPhase {
     finite_ = input.motion.status == Outcome::free;
     if (!finite_) return;
     const FloatMap map(input.motion);
-    for (Primitive kind : {Primitive::vertex, Primitive::edge, Primitive::face})
-      boxes_[std::size_t(kind)] = make_boxes(input, map, kind);
+    for (Primitive kind : kPrimitives) boxes_[std::size_t(kind)] = make_boxes(input, map, kind);
     for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
       cells_[std::size_t(kind)].emplace(boxes(first_primitive(kind)).swept,
                                         boxes(second_primitive(kind)).swept, kind == PairKind::edge_edge);
@@ -135,10 +136,11 @@ class SpatialHash final : public BroadPhase {
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
-    const auto &A = boxes(first_primitive(kind)).exact, &B = boxes(second_primitive(kind)).exact;
+    const Boxes &A = boxes(first_primitive(kind)), &B = boxes(second_primitive(kind));
     PairBatch batch(sink);
-    cells_[std::size_t(kind)]->visit(first, last, [&](int a, int b) {
-      if (boxes_pass(test_, A[std::size_t(a)], B[std::size_t(b)]) && !share_vertex(mesh_, kind, a, b))
+    cells_[std::size_t(kind)]->visit(first, last, [&](int i, int j) {
+      const int a = A.ids[std::size_t(i)], b = B.ids[std::size_t(j)];
+      if (boxes_pass(test_, A.exact[std::size_t(i)], B.exact[std::size_t(j)]) && may_meet(mesh_, kind, a, b))
         batch.add(a, b);
     });
     batch.flush();

@@ -45,11 +45,11 @@ int write_point(const FloatMap& map, const double* x, float* out) {
 
 }  // namespace
 
-Supports make_supports(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, const int* ids,
-                       std::size_t count) {
+Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
+                       const int* ids, std::size_t count) {
   const bool swept = input.test == BoxTest::swept;
   const bool points =
-      kind == Primitive::vertex && input.inflation == 0 && input.mesh.thickness.empty() && input.horizon == 1;
+      kind == Primitive::vertex && inflation == 0 && input.mesh.thickness.empty() && input.horizon == 1;
   const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
   Supports s;
   s.count = count;
@@ -64,7 +64,7 @@ Supports make_supports(const BroadPhaseInput& input, const FloatMap& map, Primit
       if (points)
         mine |= write_point(map, input.motion.t0(ids[i]), record);
       else
-        mine |= write_record(map, motion_box(input, kind, ids[i]), record);
+        mine |= write_record(map, motion_box(input, kind, ids[i], inflation), record);
       float* out = s.records.data() + i * stride;
       for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
       if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);

@@ -16,8 +16,8 @@ struct Supports {
   int rounded_axes = 0;   // bit i: the map is not one to one on axis i
 };
 
-// Of the primitives ids[0..count), each widened by its own inflation.
-Supports make_supports(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, const int* ids,
-                       std::size_t count);
+// Of the primitives ids[0..count), each widened by `inflation` and its own thickness.
+Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
+                       const int* ids, std::size_t count);
 
 }  // namespace onset

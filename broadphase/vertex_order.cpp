@@ -19,6 +19,7 @@ struct RankRange {
 };
 
 RankRange rank_range(const MeshData& mesh, Primitive kind, const int* rank, int id) {
+  if (kind == Primitive::vertex) return {rank[id], rank[id]};
   if (kind == Primitive::edge) {
     const int a = rank[mesh.edges[std::size_t(id)][0]], b = rank[mesh.edges[std::size_t(id)][1]];
     return {std::min(a, b), std::max(a, b)};
@@ -39,37 +40,42 @@ void sort_run(const MeshData& mesh, Primitive kind, const int* rank, int* first,
 
 }  // namespace
 
-VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map) {
-  const std::size_t count = std::size_t(motion.num_vertices);
+VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices) {
+  const std::size_t count = vertices.count;
   std::vector<float> points(3 * count);  // twice the middle of the motion
   parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v)
+    for (std::size_t k = first; k < last; ++k) {
+      const int v = vertices[k];
       for (std::size_t i = 0; i < 3; ++i)
-        points[3 * v + i] = map(motion.t0(int(v))[i], i) + map(motion.t1(int(v))[i], i);
+        points[3 * k + i] = map(motion.t0(v)[i], i) + map(motion.t1(v)[i], i);
+    }
   });
   VertexOrder result;
-  result.vertex.resize(count), result.rank.resize(count);
+  result.vertex.resize(count), result.rank.resize(std::size_t(motion.num_vertices));
   order_along_curve(points.data(), count, result.vertex.data());
+  if (vertices.ids)
+    for (int& v : result.vertex) v = vertices[std::size_t(v)];
   for (std::size_t r = 0; r < count; ++r) result.rank[std::size_t(result.vertex[r])] = int(r);
   return result;
 }
 
-void order_primitives(const MeshData& mesh, Primitive kind, const VertexOrder& order, int* ids) {
-  const std::size_t count = primitive_count(mesh, kind);
-  if (kind == Primitive::vertex) {
+void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
+                      int* ids) {
+  const std::size_t count = list.count;
+  if (kind == Primitive::vertex && !list.ids) {
     std::copy(order.vertex.begin(), order.vertex.end(), ids);
     return;
   }
   const int* rank = order.rank.data();
   AlignedArray<int> lowest(count);
   parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) lowest[i] = rank_range(mesh, kind, rank, int(i)).lowest;
+    for (std::size_t i = first; i < last; ++i) lowest[i] = rank_range(mesh, kind, rank, list[i]).lowest;
   });
-  std::vector<int> start(order.rank.size(), 0);
+  std::vector<int> start(order.vertex.size(), 0);
   for (std::size_t i = 0; i < count; ++i) ++start[std::size_t(lowest[i])];
   int sum = 0;
   for (int& n : start) sum += std::exchange(n, sum);
-  for (std::size_t i = 0; i < count; ++i) ids[start[std::size_t(lowest[i])]++] = int(i);
+  for (std::size_t i = 0; i < count; ++i) ids[start[std::size_t(lowest[i])]++] = list[i];
   for (std::size_t r = 0, first = 0; r < start.size();
        first = std::size_t(start[r++]))  // start: now where runs end
     if (start[r] - std::ptrdiff_t(first) > kLongRun) sort_run(mesh, kind, rank, ids + first, ids + start[r]);

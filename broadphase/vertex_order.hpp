@@ -8,16 +8,24 @@
 
 namespace onset {
 
-struct VertexOrder {
-  std::vector<int> vertex;  // of each rank
-  std::vector<int> rank;    // of each vertex
+// Ids of some primitives of one kind, or all of them: then `ids` is null.
+struct IdList {
+  const int* ids;
+  std::size_t count;
+  int operator[](std::size_t i) const { return ids ? ids[i] : int(i); }
 };
 
-VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map);
+struct VertexOrder {
+  std::vector<int> vertex;  // of each rank
+  std::vector<int> rank;    // of each vertex; 0 for those that have none
+};
 
-// Fills ids[0..number of primitives) by the lowest rank among their vertices; many of one lowest rank by the
+VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices);
+
+// Fills ids[0..list.count) by the lowest rank among their vertices; many of one lowest rank by the
 // highest. As good as a curve through the primitives' own centres (within 5 % of its traversal times), at the
 // price of a counting sort.
-void order_primitives(const MeshData& mesh, Primitive kind, const VertexOrder& order, int* ids);
+void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
+                      int* ids);
 
 }  // namespace onset

@@ -34,8 +34,8 @@ double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narr
   const double limit = exact ? std::nextafter(first.step_limit, 1) : first.step_limit;
   const double horizon = keep == Keep::all ? latest_time(first) + options.window : limit;
   if (horizon > 0.5) return std::min(horizon, 1.0);
-  const double inflation = 0.5 * (options.min_separation + stats.tolerance) * (1 + 0x1p-50);
-  scene.broad->refit({mesh.data(), scene.motion, inflation, horizon, BoxTest::motion, options.kernel});
+  scene.broad->refit(
+      broad_phase_input(mesh.data(), scene.motion, options, stats.tolerance, horizon, BoxTest::motion));
   return horizon;
 }
 

@@ -9,10 +9,20 @@
 
 namespace onset {
 
+BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
+                                  double margin, double horizon, BoxTest test) {
+  const double half = 0.5 * options.min_separation * (1 + 0x1p-50);
+  const bool fixed = mesh.filter && mesh.filter->has_fixed();
+  const double inflation =
+      fixed ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
+  return {mesh, motion, inflation, horizon, test, options.kernel, half};
+}
+
 Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
              BoxTest test, Stats& stats, Budget& budget, double d_hat) {
   const MeshData& data = mesh.data();
-  motion = make_motion(data.num_vertices, x_t0, x_t1);
+  motion = make_motion(data, x_t0, x_t1);
+  if (data.filter) stats.plan = data.filter->plan;
   stats.threads = current_threads();
   stats.kernel = kernel_name(resolve_kernel(options.kernel));
   if (motion.status != Outcome::free) return;
@@ -22,15 +32,17 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
   // depend on that rounding.
   const bool widened = options.min_separation > 0 || !data.thickness.empty();
   const double margin = test == BoxTest::motion && widened ? stats.tolerance : 0;
-  double inflation = 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
-  if (d_hat >= 0) {
+  BroadPhaseInput input = broad_phase_input(data, motion, options, margin, 1.0, test);
+  if (d_hat >= 0) {  // boxes that stay fixed are not widened: the others take all of it
     const double near = std::max(d_hat, stats.tolerance);
-    inflation =
-        std::max(inflation, 0.5 * euclidean_reach(data, options, near, rounding_of_distances(motion)));
+    const double reach = euclidean_reach(data, options, near, rounding_of_distances(motion));
+    const bool fixed = data.filter && data.filter->has_fixed();
+    input.inflation = std::max(input.inflation, fixed ? reach : 0.5 * reach);
   }
   if (budget.spent()) return;
-  broad = make_broad_phase(options.broad_phase, {data, motion, inflation, 1.0, test, options.kernel});
+  broad = make_broad_phase(options.broad_phase, input);
   stats.broad_phase = broad->name();
+  stats.made_fixed_boxes = broad->made_fixed_boxes();
   stats.seconds_broad = clock.seconds();
 }
 

@@ -10,6 +10,11 @@
 
 namespace onset {
 
+// Boxes of two primitives overlap wherever these come within min_separation + margin, thickness apart. The
+// margin changes with the motion; static primitives leave it to the others, so that their boxes can stay.
+BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
+                                  double margin, double horizon, BoxTest test);
+
 struct Scene {
   Motion motion;
   std::unique_ptr<BroadPhase>

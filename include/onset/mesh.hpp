@@ -1,10 +1,12 @@
-// The topology that can touch: vertices, edges and faces, checked once and shared by every call.
+// What can touch: vertices, edges and faces, and who may meet whom; checked once and shared by every call.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <onset/export.hpp>
+#include <onset/plan.hpp>
+#include <onset/result.hpp>
 #include <onset/views.hpp>
 #include <vector>
 
@@ -13,7 +15,17 @@ namespace onset {
 struct MeshData;  // base/mesh_data.hpp
 
 // Immutable after construction apart from the set_ functions; const calls from any number of threads are
-// safe. Copies share their data until one of them is changed.
+// safe, a set_ function with any other call is not. Copies share their data until one of them is changed. A
+// set_ function takes time linear in the mesh (n log n with bodies), throws std::invalid_argument naming the
+// row, or leaves the mesh as it was, and replaces what an earlier call of it set.
+//
+// Tested are vertices against faces and edges against edges. Vertices of no element (points) and edges of no
+// face (wires) take part like all others; two points, or a point and a wire, are not tested against each
+// other: they pass one another without touching unless aimed exactly, and a pair meant to keep a distance
+// needs faces.
+//
+// A pair is left out of every call, and named by none, where any of the rules below says so; the primitives
+// left with no partner get no box. plan() counts.
 class ONSET_API Mesh {
  public:
   // `vertices`: #V, the number of rows of every positions matrix. `edges`: #E x 2; `faces`: #F x 3. Throws
@@ -37,9 +49,62 @@ class ONSET_API Mesh {
   // Throws std::invalid_argument naming the row.
   void set_thickness(const std::vector<double>& thickness);
 
+  // Bodies: one id a vertex (#V values >= 0), the same for all vertices of an edge or face. Until set, all is
+  // body 0. Forgets what was set by body id: rigid, self-collision, excluded bodies.
+  void set_bodies(const std::vector<int>& body);
+  // The connected parts of edges and faces as bodies, numbered by their first vertex; a point is a body.
+  std::vector<int> components() const;
+  int num_bodies() const;  // the largest id + 1
+  int body(std::ptrdiff_t vertex) const;
+
+  // Static vertices (#V flags): they stay where they are, x_t1 = x_t0 in every call (else the call throws,
+  // naming the vertex). Pairs all of whose vertices are static are left out. Boxes and tree of the primitives
+  // all of whose vertices are static are kept from call to call until one of these vertices is found
+  // elsewhere.
+  void set_static(const std::vector<bool>& vertices);
+
+  // One flag a body. Rigid: its parts never meet each other; that it moves rigidly is the caller's business
+  // and not checked. Self-collision: off does the same for a body that deforms. Until set: not rigid, on.
+  void set_rigid(const std::vector<bool>& bodies);
+  void set_self_collision(const std::vector<bool>& bodies);
+
+  // Bits of the groups that each vertex is in, and of those that it meets (#V values each). Primitives have
+  // the bits of all of their vertices, and meet if each is in a group that the other one meets.
+  void set_groups(const std::vector<std::uint32_t>& groups, const std::vector<std::uint32_t>& masks);
+
+  // Bodies (#pairs x 2, different ids) that pass through each other; vertices (the same) that count as one,
+  // as at a seam: a pair with one of the two on each side is left out as if it shared a vertex.
+  void set_excluded_bodies(const std::vector<std::array<int, 2>>& pairs);
+  void set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs);
+
+  // One value a body (num_bodies() of them) as one value a vertex, for the functions that take these.
+  template <class T>
+  std::vector<T> of_bodies(const std::vector<T>& values) const {
+    std::vector<T> each(static_cast<std::size_t>(num_vertices()));
+    for (std::size_t v = 0; v < each.size(); ++v)
+      each[v] = values.at(static_cast<std::size_t>(body(std::ptrdiff_t(v))));
+    return each;
+  }
+
+  // Where this is the surface of a full (tetrahedral) mesh: the full mesh's vertex of each vertex (#V
+  // different ids in [0, full_vertices)). All positions stay those of the surface; these map between the two.
+  void set_full_vertices(const std::vector<int>& ids, std::ptrdiff_t full_vertices);
+  std::ptrdiff_t num_full_vertices() const;
+  int full_vertex(std::ptrdiff_t vertex) const;
+  std::array<int, 4> full_vertices(const Pair& pair) const;
+  std::array<std::ptrdiff_t, 12> full_dofs(
+      const Pair& pair) const;  // 3 full_vertex + axis, in the pair's order
+  // x y z of each surface vertex, out of the full mesh's positions: `Positions(p.data(), num_vertices())`.
+  std::vector<double> surface_positions(const Positions& full) const;
+
+  // Which pairs remain and what left the others out.
+  const PairPlan& plan() const;
+
   const MeshData& data() const { return *data_; }
 
  private:
+  template <class F>
+  void change(F&& f);
   std::shared_ptr<const MeshData> data_;
 };
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <onset/export.hpp>
+#include <onset/plan.hpp>
 #include <vector>
 
 namespace onset {
@@ -75,6 +76,9 @@ struct Stats {
   double extent = 0;              // R: the largest corner difference that an overlapping pair can have
   std::array<double, 3>
       error_bound{};  // per axis: bound on the rounding error of a corner anywhere in the scene
+  PairPlan plan;                  // what the mesh leaves out of every step
+  bool made_fixed_boxes = false;  // boxes of static primitives were made in this call, not taken from an
+                                  // earlier one
   int threads = 0;
   const char* kernel = "";
   const char* broad_phase = "";

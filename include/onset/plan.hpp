@@ -1,0 +1,33 @@
+// Which pairs a mesh can have at all, and what left the others out. Plain data.
+#pragma once
+
+#include <cstdint>
+
+namespace onset {
+
+// Pairs of one kind, from topology and filters alone: exact, the same for every step and broad phase.
+struct KindPlan {
+  std::int64_t pairs = 0;  // vertex-face: #V #F; edge-edge: #E (#E - 1) / 2
+  // Left out, each pair under the first reason that holds:
+  std::int64_t masked = 0;     // groups and masks (Mesh::set_groups); see PairPlan for very many of them
+  std::int64_t fixed = 0;      // both primitives are static
+  std::int64_t same_body = 0;  // both in one body that is rigid or does not collide with itself
+  std::int64_t adjacent = 0;   // they share a vertex
+  std::int64_t excluded = 0;   // named by Mesh::set_excluded_bodies, set_excluded_vertices
+  std::int64_t may_meet() const { return pairs - masked - fixed - same_body - adjacent - excluded; }
+};
+
+// Primitives of one kind. What can meet nothing is dropped: it gets no box.
+struct PrimitivePlan {
+  std::int64_t moving = 0, fixed = 0;  // that take part; fixed: all vertices are static
+  std::int64_t dropped = 0;
+};
+
+// Where more than 1,024 different combinations of group and mask occur, masked pairs are not counted (0), and
+// no primitive is dropped on their account; they are left out all the same.
+struct PairPlan {
+  KindPlan vertex_face, edge_edge;
+  PrimitivePlan vertices, edges, faces;
+};
+
+}  // namespace onset

@@ -1,0 +1,262 @@
+// Bodies, static vertices, groups, exclusions: every broad phase gives what a filter written from the
+// documentation of Mesh leaves of all pairs, and the plan counts them.
+#include <onset/mesh.hpp>
+#include <stdexcept>
+
+#include "tests/broadphase/candidates.hpp"
+#include "tests/broadphase/soups.hpp"
+#include "tests/catch.hpp"
+
+using namespace onset;
+using namespace onset::tests;
+using scenes::Random;
+
+namespace {
+
+constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge};
+
+// What was asked of a mesh, as it was asked.
+struct Rules {
+  std::vector<int> body;
+  std::vector<bool> fixed, rigid, self;
+  std::vector<std::uint32_t> group, mask;
+  std::vector<std::array<int, 2>> bodies_apart, vertices_apart;
+};
+
+bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
+  for (const auto& p : pairs)
+    if ((p[0] == a && p[1] == b) || (p[0] == b && p[1] == a)) return true;
+  return false;
+}
+
+enum Reason { none, masked, fixed, same_body, adjacent, by_name };
+
+Reason left_out(const Rules& r, const std::vector<int>& A, const std::vector<int>& B) {
+  std::uint32_t groups[2] = {0, 0}, masks[2] = {0, 0};
+  bool all_fixed = true, shared = false, apart = false;
+  const std::vector<int>* sides[2] = {&A, &B};
+  for (int side = 0; side < 2; ++side)
+    for (int v : *sides[side]) {
+      groups[side] |= r.group.empty() ? 1 : r.group[std::size_t(v)];
+      masks[side] |= r.mask.empty() ? 1 : r.mask[std::size_t(v)];
+      all_fixed = all_fixed && !r.fixed.empty() && r.fixed[std::size_t(v)];
+    }
+  for (int v : A)
+    for (int w : B) {
+      shared = shared || v == w;
+      apart = apart || named(r.vertices_apart, v, w);
+    }
+  const int a = r.body.empty() ? 0 : r.body[std::size_t(A[0])],
+            b = r.body.empty() ? 0 : r.body[std::size_t(B[0])];
+  if ((groups[0] & masks[1]) == 0 || (groups[1] & masks[0]) == 0) return masked;
+  if (all_fixed) return fixed;
+  if (a == b &&
+      ((!r.rigid.empty() && r.rigid[std::size_t(a)]) || (!r.self.empty() && !r.self[std::size_t(a)])))
+    return same_body;
+  if (shared) return adjacent;
+  return apart || named(r.bodies_apart, a, b) ? by_name : none;
+}
+
+std::vector<int> vertices_of(const MeshData& mesh, Primitive kind, int id) {
+  if (kind == Primitive::vertex) return {id};
+  if (kind == Primitive::edge) return {mesh.edges[std::size_t(id)][0], mesh.edges[std::size_t(id)][1]};
+  const auto& f = mesh.faces[std::size_t(id)];
+  return {f[0], f[1], f[2]};
+}
+
+Reason left_out(const Rules& r, const MeshData& mesh, PairKind kind, int a, int b) {
+  return left_out(r, vertices_of(mesh, first_primitive(kind), a),
+                  vertices_of(mesh, second_primitive(kind), b));
+}
+
+// Clusters of a few vertices each, some with many faces, some wires, some points alone; edges may repeat.
+Soup clusters(int count, Random& random) {
+  Soup soup;
+  soup.name = "clusters";
+  for (int c = 0; c < count; ++c) {
+    const int first = soup.mesh.num_vertices, size = scenes::integer(random, 1, 14);
+    soup.mesh.num_vertices += size;
+    for (int v = 0; v < 3 * size; ++v) {
+      soup.x_t0.push_back(scenes::uniform(random, -1, 1));
+      soup.x_t1.push_back(soup.x_t0.back() + scenes::uniform(random, -0.2, 0.2));
+    }
+    const auto vertex = [&] { return first + scenes::integer(random, 0, size - 1); };
+    for (int i = 0; size > 2 && i < scenes::integer(random, 0, 12); ++i) {
+      const int a = vertex(), b = vertex(), d = vertex();
+      if (a != b && b != d && a != d) soup.mesh.faces.push_back({a, b, d});
+    }
+    for (int i = 0; size > 1 && i < scenes::integer(random, 0, 12); ++i)
+      if (const int a = vertex(), b = vertex(); a != b) soup.mesh.edges.push_back({a, b});
+  }
+  return soup;
+}
+
+template <class T>
+Eigen::MatrixXi matrix(const std::vector<T>& rows) {
+  Eigen::MatrixXi m(rows.size(), T().size());
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t c = 0; c < T().size(); ++c) m(Eigen::Index(r), Eigen::Index(c)) = rows[r][c];
+  return m;
+}
+
+// Each rule with probability one half. Static vertices of `soup` stop moving.
+Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
+  Mesh mesh(soup.mesh.num_vertices, matrix(soup.mesh.edges), matrix(soup.mesh.faces));
+  const auto some = [&](double part) { return scenes::uniform(random, 0, 1) < part; };
+  const std::size_t V = std::size_t(soup.mesh.num_vertices);
+  if (some(0.7)) {
+    rules.body = mesh.components();
+    const int merged = scenes::integer(random, 1, 20);
+    for (int& b : rules.body) b %= merged;
+    mesh.set_bodies(rules.body);
+  }
+  const std::size_t bodies = std::size_t(mesh.num_bodies());
+  const auto flags = [&](std::size_t size) {
+    std::vector<bool> all(size);
+    const double part = scenes::uniform(random, 0, 1);
+    for (std::size_t i = 0; i < size; ++i) all[i] = some(part);
+    return all;
+  };
+  if (some(0.5)) mesh.set_rigid(rules.rigid = flags(bodies));
+  if (some(0.5)) mesh.set_self_collision(rules.self = flags(bodies));
+  if (some(0.6)) {
+    rules.fixed = some(0.5) ? flags(V) : mesh.of_bodies(flags(bodies));
+    mesh.set_static(rules.fixed);
+    for (std::size_t v = 0; v < V; ++v)
+      for (std::size_t a = 0; a < 3; ++a)
+        if (rules.fixed[v]) soup.x_t1[3 * v + a] = soup.x_t0[3 * v + a];
+  }
+  if (some(0.5)) {
+    for (std::size_t v = 0; v < V; ++v) {
+      rules.group.push_back(std::uint32_t(scenes::integer(random, 0, 3)) << 30);
+      rules.mask.push_back(std::uint32_t(scenes::integer(random, 0, 3)) << 30);
+    }
+    mesh.set_groups(rules.group, rules.mask);
+  }
+  const auto pairs = [&](int count, int size) {
+    std::vector<std::array<int, 2>> all;
+    for (int i = 0; i < count && size > 1; ++i) {
+      const int a = scenes::integer(random, 0, size - 1), b = scenes::integer(random, 0, size - 1);
+      if (a != b) all.push_back({a, b});
+    }
+    return all;
+  };
+  if (some(0.5)) mesh.set_excluded_bodies(rules.bodies_apart = pairs(4, int(bodies)));
+  if (some(0.5)) mesh.set_excluded_vertices(rules.vertices_apart = pairs(30, int(V)));
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "[property]") {
+  Random random(20);
+  std::int64_t found = 0, reasons[6] = {};
+  for (int round = 0; round < 150; ++round) {
+    Soup soup = clusters(scenes::integer(random, 1, 40), random);
+    Rules rules;
+    const Mesh mesh = random_rules(soup, rules, random);
+    const Motion motion = make_motion(mesh.data(), {soup.x_t0.data(), soup.mesh.num_vertices},
+                                      {soup.x_t1.data(), soup.mesh.num_vertices});
+    REQUIRE(motion.status == Outcome::free);
+    const Motion plain = soup.motion();
+    for (const BoxTest test : {BoxTest::swept, BoxTest::motion}) {
+      BroadPhaseInput unfiltered{soup.mesh, plain}, input{mesh.data(), motion};
+      unfiltered.test = input.test = test;
+      unfiltered.inflation = input.inflation = round % 3 == 0 ? 0.05 : 0;
+      unfiltered.horizon = input.horizon = round % 4 == 0 ? 0.3 : 1;
+      const auto all = make_broad_phase(BroadPhaseMethod::brute, unfiltered);
+      for (const PairKind kind : kKinds) {
+        IdPairs expected;
+        for (const auto& [a, b] : candidates(*all, kind)) {
+          const Reason reason = left_out(rules, soup.mesh, kind, a, b);
+          ++reasons[reason];
+          if (reason == none) expected.emplace_back(a, b);
+        }
+        found += std::int64_t(expected.size());
+        std::vector<Method> every = methods();
+        every.push_back({"brute", BroadPhaseMethod::brute, Kernel::scalar});
+        for (const Method& method : every) {
+          input.kernel = method.kernel;
+          INFO("round " << round << ", " << method.name << ", kind " << int(kind) << ", test " << int(test));
+          const auto phase = make_broad_phase(method.method, input);
+          CHECK((candidates(*phase, kind) == expected));
+          phase->refit(input);
+          CHECK((candidates(*phase, kind) == expected));
+        }
+      }
+    }
+  }
+  CHECK(found > 10000);
+  for (const Reason reason : {masked, fixed, same_body, by_name}) CHECK(reasons[reason] > 1000);
+}
+
+TEST_CASE("the plan counts every pair under the first reason that leaves it out", "[property]") {
+  Random random(21);
+  for (int round = 0; round < 150; ++round) {
+    Soup soup = clusters(scenes::integer(random, 1, 25), random);
+    Rules rules;
+    const Mesh mesh = random_rules(soup, rules, random);
+    std::array<std::vector<bool>, 3> busy;
+    for (const Primitive p : kPrimitives) busy[std::size_t(p)].resize(primitive_count(soup.mesh, p));
+    for (const PairKind kind : kKinds) {
+      std::int64_t counts[6] = {}, pairs = 0;
+      const Primitive first = first_primitive(kind), second = second_primitive(kind);
+      for (int a = 0; a < int(primitive_count(soup.mesh, first)); ++a)
+        for (int b = first == second ? a + 1 : 0; b < int(primitive_count(soup.mesh, second)); ++b) {
+          const Reason reason = left_out(rules, soup.mesh, kind, a, b);
+          ++counts[reason], ++pairs;
+          if (reason == none)
+            busy[std::size_t(first)][std::size_t(a)] = busy[std::size_t(second)][std::size_t(b)] = true;
+        }
+      const KindPlan& plan = kind == PairKind::vertex_face ? mesh.plan().vertex_face : mesh.plan().edge_edge;
+      CAPTURE(round, int(kind));
+      CHECK(plan.pairs == pairs);
+      CHECK(plan.masked == counts[masked]);
+      CHECK(plan.fixed == counts[fixed]);
+      CHECK(plan.same_body == counts[same_body]);
+      CHECK(plan.adjacent == counts[adjacent]);
+      CHECK(plan.excluded == counts[by_name]);
+      CHECK(plan.may_meet() == counts[none]);
+    }
+    // What may meet something is never dropped; adjacency and exclusions are not looked at for that.
+    const PrimitivePlan* plans[] = {&mesh.plan().vertices, &mesh.plan().edges, &mesh.plan().faces};
+    for (const Primitive p : kPrimitives) {
+      const auto& marks = busy[std::size_t(p)];
+      const std::int64_t needed = std::count(marks.begin(), marks.end(), true);
+      const PrimitivePlan& plan = *plans[std::size_t(p)];
+      CHECK(plan.moving + plan.fixed >= needed);
+      CHECK(plan.moving + plan.fixed + plan.dropped == std::int64_t(marks.size()));
+    }
+  }
+}
+
+TEST_CASE("what can meet nothing gets no box", "[unit]") {
+  Random random(4);
+  const Soup soup = scattered("triangles", 40, 0.3, 0.1, random);
+  const auto mesh = [&](bool edges, bool faces) {
+    return Mesh(soup.mesh.num_vertices, edges ? Indices(matrix(soup.mesh.edges)) : Indices(),
+                faces ? Indices(matrix(soup.mesh.faces)) : Indices());
+  };
+  const PairPlan wires = mesh(true, false).plan(), faces = mesh(false, true).plan();
+  CHECK(wires.vertices.dropped == 120);
+  CHECK(wires.edges.moving == 120);
+  CHECK(faces.vertices.moving == 120);
+  CHECK(faces.faces.moving == 40);
+  Mesh rigid = mesh(true, true);
+  rigid.set_rigid({true});
+  CHECK(rigid.plan().vertices.dropped == 120);
+  CHECK(rigid.plan().edges.dropped == 120);
+  CHECK(rigid.plan().faces.dropped == 40);
+  CHECK(rigid.plan().edge_edge.may_meet() == 0);
+  Mesh still = mesh(true, true);
+  still.set_static(std::vector<bool>(120, true));
+  CHECK(still.plan().faces.dropped == 40);
+  Mesh ghost = mesh(true, true);  // the first triangle is in no group
+  std::vector<std::uint32_t> groups(120, 1), masks(120, 1);
+  groups[0] = groups[1] = groups[2] = 0;
+  ghost.set_groups(groups, masks);
+  CHECK(ghost.plan().vertices.dropped == 3);
+  CHECK(ghost.plan().edges.dropped == 3);
+  CHECK(ghost.plan().faces.dropped == 1);
+  CHECK(ghost.plan().faces.moving == 39);
+}

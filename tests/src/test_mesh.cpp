@@ -1,0 +1,220 @@
+// What a mesh is told about its bodies: checked, mapped, and the same answers with less work.
+#include <cstring>
+#include <onset/onset.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/catch.hpp"
+#include "tests/scenes/meshes.hpp"
+
+using namespace onset;
+using scenes::Scene;
+
+namespace {
+
+bool same_answer(const ActiveSet& a, const ActiveSet& b) {
+  return a.kind == b.kind && a.a == b.a && a.b == b.b && a.status == b.status && a.outcome == b.outcome &&
+         a.toi.size() == b.toi.size() &&
+         (a.toi.empty() || std::memcmp(a.toi.data(), b.toi.data(), a.toi.size() * sizeof(double)) == 0);
+}
+
+// A cube at rest after a shaken sphere that falls onto it: static from its first vertex on.
+Scene onto_static(double fall, unsigned seed) {
+  scenes::Random random(seed);
+  Scene ball = scenes::translated(scenes::sphere(7, 12), {0, 0, 2.25});
+  scenes::displace(ball, {0, 0, -fall});
+  scenes::shake(ball, 0.05, random);
+  Scene scene = scenes::joined(ball, scenes::cube());
+  for (Eigen::MatrixXd* x : {&scene.x_t0, &scene.x_t1}) x->col(0) *= 2, x->col(1) *= 1.25;  // no axes alike
+  return scene;
+}
+std::vector<bool> last_eight(const Scene& scene) {
+  std::vector<bool> flags(std::size_t(scene.x_t0.rows()));
+  for (std::size_t v = flags.size() - 8; v < flags.size(); ++v) flags[v] = true;
+  return flags;
+}
+
+}  // namespace
+
+TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]") {
+  const Scene scene = scenes::joined(scenes::cube(), scenes::translated(scenes::cube(), {3, 0, 0}));
+  Mesh mesh(scene.x_t0, scene.faces);
+  std::vector<int> body(16, 0);
+  body[15] = 1;
+  CHECK_THROWS_WITH(mesh.set_bodies(body),
+                    Catch::Contains("edge row") && Catch::Contains("vertex 15 in body 1"));
+  body[15] = -1;
+  CHECK_THROWS_WITH(mesh.set_bodies(body), Catch::Contains("body row 15"));
+  CHECK_THROWS_WITH(mesh.set_bodies({0, 1}), Catch::Contains("2 values for 16 vertices"));
+  CHECK(mesh.num_bodies() == 1);
+  mesh.set_bodies(mesh.components());
+  REQUIRE(mesh.num_bodies() == 2);
+  CHECK(mesh.body(7) == 0);
+  CHECK(mesh.body(8) == 1);
+  CHECK_THROWS_WITH(mesh.set_static({true}), Catch::Contains("1 values for 16 vertices"));
+  CHECK_THROWS_WITH(mesh.set_rigid({true}), Catch::Contains("1 values for 2 bodies"));
+  CHECK_THROWS_WITH(mesh.set_self_collision({true}), Catch::Contains("1 values for 2 bodies"));
+  CHECK_THROWS_AS(mesh.set_groups({1}, std::vector<std::uint32_t>(16)), std::invalid_argument);
+  CHECK_THROWS_AS(mesh.set_groups(std::vector<std::uint32_t>(16), {1}), std::invalid_argument);
+  CHECK_THROWS_WITH(mesh.set_excluded_bodies({{0, 1}, {1, 2}}),
+                    Catch::Contains("excluded bodies row 1") && Catch::Contains("id 2"));
+  CHECK_THROWS_WITH(mesh.set_excluded_vertices({{3, 3}}), Catch::Contains("excluded vertices row 0"));
+  CHECK_THROWS_WITH(mesh.set_full_vertices(std::vector<int>(16, 2), 30),
+                    Catch::Contains("row 1") && Catch::Contains("repeated"));
+  CHECK(mesh.plan().vertex_face.same_body == 0);
+  CHECK(mesh.plan().vertex_face.excluded == 0);
+}
+
+TEST_CASE("ids and degrees of freedom map to the full mesh", "[unit]") {
+  Mesh mesh(4, Eigen::MatrixXi((Eigen::MatrixXi(1, 3) << 1, 2, 3).finished()));
+  CHECK(mesh.full_vertex(2) == 2);
+  mesh.set_full_vertices({5, 9, 0, 7}, 10);
+  CHECK(mesh.num_full_vertices() == 10);
+  const Pair pair{PairKind::vertex_face, 0, 0, {0, 1, 2, 3}};
+  CHECK(mesh.full_vertices(pair) == std::array<int, 4>{5, 9, 0, 7});
+  CHECK(mesh.full_dofs(pair) == std::array<std::ptrdiff_t, 12>{15, 16, 17, 27, 28, 29, 0, 1, 2, 21, 22, 23});
+  CHECK(mesh.full_vertices(Pair{}) == std::array<int, 4>{-1, -1, -1, -1});
+  CHECK(mesh.full_dofs(Pair{})[11] == -1);
+  const Eigen::MatrixXd full = Eigen::MatrixXd::Random(10, 3);
+  const std::vector<double> surface = mesh.surface_positions(full);
+  REQUIRE(surface.size() == 12);
+  CHECK(surface[3] == full(9, 0));
+  CHECK(surface[11] == full(7, 2));
+  CHECK_THROWS_AS(mesh.surface_positions(full.topRows(4)), std::invalid_argument);
+  CHECK_THROWS_WITH(compute_collision_free_stepsize(mesh, full, full),
+                    Catch::Contains("full mesh") && Catch::Contains("surface_positions"));
+}
+
+TEST_CASE("a point against a face and wires against each other are found", "[unit]") {
+  // A point falls through a triangle, a wire through another wire and the triangle's edge.
+  Eigen::MatrixXd x(8, 3);
+  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, /* point */ 1, 1, 1, /* wires */ 10, -1, 0, 10, 1, 0, 9, 0, 1, 11, 0, 1;
+  Eigen::MatrixXd end = x;
+  for (int v : {3, 6, 7}) end(v, 2) = -1;
+  Eigen::MatrixXi faces(1, 3), edges(5, 2);
+  faces << 0, 1, 2;
+  edges << 0, 1, 1, 2, 2, 0, 4, 5, 6, 7;
+  const ActiveSet set = construct_active_set(Mesh(8, edges, faces), x, end);
+  REQUIRE(set.size() == 2);
+  CHECK(set.vertices[0] == std::array<int, 4>{3, 0, 1, 2});
+  CHECK(set.vertices[1] == std::array<int, 4>{4, 5, 6, 7});
+  for (double toi : set.toi) CHECK(toi == Approx(0.5).epsilon(1e-4));
+}
+
+TEST_CASE("static vertices give the same answers and are boxed once", "[property]") {
+  const Scene first = onto_static(0.75, 1);
+  for (const double separation : {0.0, 0.02}) {
+    Mesh fixed(first.x_t0, first.faces);
+    const Mesh plain = fixed;
+    fixed.set_static(last_eight(first));
+    int contacts = 0;
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+      const Scene scene = onto_static(seed % 2 == 0 ? 0.75 : 0.1, seed);
+      Options o;
+      o.min_separation = separation;
+      o.tolerance = 1e-6;  // the relative one changes with the pairs that there can be
+      const ActiveSet expected = construct_active_set(plain, scene.x_t0, scene.x_t1, o);
+      for (const BroadPhaseMethod method :
+           {BroadPhaseMethod::bvh, BroadPhaseMethod::hash, BroadPhaseMethod::brute}) {
+        o.broad_phase = method;
+        const ActiveSet found = construct_active_set(fixed, scene.x_t0, scene.x_t1, o);
+        CHECK(same_answer(found, expected));
+        CHECK(found.stats.made_fixed_boxes == (seed == 1 && method == BroadPhaseMethod::bvh));
+      }
+      o.broad_phase = BroadPhaseMethod::automatic;
+      const StepResult step = compute_collision_free_stepsize(fixed, scene.x_t0, scene.x_t1, o);
+      CHECK(step.step == compute_collision_free_stepsize(plain, scene.x_t0, scene.x_t1, o).step);
+      CHECK(!step.stats.made_fixed_boxes);
+      const LineSearch search(fixed, scene.x_t0, scene.x_t1 - scene.x_t0, o);
+      const LineSearch usual(plain, scene.x_t0, scene.x_t1 - scene.x_t0, o);
+      CHECK(search.largest_step().result.step == usual.largest_step().result.step);
+      contacts += expected.size() > 0;
+    }
+    CHECK(contacts == 6);
+  }
+}
+
+TEST_CASE("static vertices found elsewhere are boxed again, and must not move in a step", "[unit]") {
+  const Scene scene = onto_static(0.75, 1);
+  Mesh mesh(scene.x_t0, scene.faces);
+  const Mesh plain = mesh;
+  mesh.set_static(last_eight(scene));
+  const auto ask = [&](const Scene& s) {
+    const ActiveSet set = construct_active_set(mesh, s.x_t0, s.x_t1);
+    CHECK(same_answer(set, construct_active_set(plain, s.x_t0, s.x_t1)));
+    return set;
+  };
+  CHECK(ask(scene).stats.made_fixed_boxes);
+  CHECK(!ask(scene).stats.made_fixed_boxes);
+  Scene lower = scene;  // out of reach, then back
+  lower.x_t0.bottomRows(8).col(2).array() -= 3, lower.x_t1.bottomRows(8).col(2).array() -= 3;
+  const ActiveSet missed = ask(lower);
+  CHECK(missed.stats.made_fixed_boxes);
+  CHECK(missed.size() == 0);
+  CHECK(ask(scene).size() > 0);
+  Scene wrong = scene;
+  wrong.x_t1(wrong.x_t1.rows() - 3, 1) += 1e-9;
+  const std::string name = "vertex " + std::to_string(wrong.x_t1.rows() - 3) + " is static";
+  CHECK_THROWS_WITH(construct_active_set(mesh, wrong.x_t0, wrong.x_t1), Catch::Contains(name));
+  wrong.x_t1(wrong.x_t1.rows() - 3, 1) = NAN;
+  const ActiveSet undone = construct_active_set(mesh, wrong.x_t0, wrong.x_t1);
+  CHECK(undone.outcome == Outcome::non_finite);
+  CHECK(undone.vertex == int(wrong.x_t1.rows() - 3));
+  wrong.x_t1 = scene.x_t1, wrong.x_t1(0, 0) = INFINITY;
+  CHECK(construct_active_set(mesh, wrong.x_t0, wrong.x_t1).vertex == 0);
+  CHECK(ask(scene).size() > 0);
+}
+
+TEST_CASE("threads that share a mesh and disagree on where it stands get their own answers",
+          "[determinism]") {
+  Scene here = onto_static(0.75, 3), there = here;
+  Mesh mesh(here.x_t0, here.faces);
+  const Mesh plain = mesh;
+  mesh.set_static(last_eight(here));
+  for (Eigen::MatrixXd* x : {&there.x_t0, &there.x_t1}) x->bottomRows(8).col(0).array() += 0.5;
+  const ActiveSet expected[2] = {construct_active_set(plain, here.x_t0, here.x_t1),
+                                 construct_active_set(plain, there.x_t0, there.x_t1)};
+  REQUIRE(!same_answer(expected[0], expected[1]));
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 20; ++i) {
+        const int which = (t + i / 4) % 2;
+        const Scene& s = which == 0 ? here : there;
+        wrong += !same_answer(construct_active_set(mesh, s.x_t0, s.x_t1), expected[which]);
+      }
+    });
+  for (std::thread& t : threads) t.join();
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a thousand rigid bodies make no pair within a body", "[property]") {
+  Scene all = scenes::cube();
+  for (int i = 1; i < 10; ++i) all = scenes::joined(all, scenes::translated(scenes::cube(), {2.1 * i, 0, 0}));
+  for (int k = 0; k < 2; ++k) {  // a row, a layer, a block
+    const Scene row = all;
+    for (int i = 1; i < 10; ++i)
+      all = scenes::joined(all, scenes::translated(row, {0, k == 0 ? 2.1 * i : 0, k == 1 ? 2.1 * i : 0}));
+  }
+  scenes::Random random(8);
+  scenes::shake(all, 0.3, random);
+  Mesh mesh(all.x_t0, all.faces);
+  mesh.set_bodies(mesh.components());
+  REQUIRE(mesh.num_bodies() == 1000);
+  const Candidates before = compute_candidates(mesh, all.x_t0, all.x_t1);
+  mesh.set_rigid(std::vector<bool>(1000, true));
+  const Candidates found = compute_candidates(mesh, all.x_t0, all.x_t1);
+  const auto body = [&](bool edge, int id) { return mesh.body(edge ? mesh.edge(id)[0] : id); };
+  std::vector<std::array<int, 2>> vf, ee;
+  for (const auto& [v, f] : before.vertex_face)
+    if (mesh.body(v) != mesh.body(mesh.face(f)[0])) vf.push_back({v, f});
+  for (const auto& [e, f] : before.edge_edge)
+    if (body(true, e) != body(true, f)) ee.push_back({e, f});
+  CHECK(vf.size() > 1000);
+  CHECK(vf.size() < before.vertex_face.size());
+  CHECK((found.vertex_face == vf));
+  CHECK((found.edge_edge == ee));
+  CHECK(found.stats.plan.vertex_face.same_body == 1000 * 8 * 12);
+  CHECK(found.stats.plan.edge_edge.same_body == 1000 * 18 * 17 / 2);
+}
