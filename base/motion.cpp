@@ -35,15 +35,17 @@ Difference exact_difference(double x, double y) {
 // on exact differences of positions along an axis and not on their sign, so it commutes with exchanging axes,
 // flipping them, exact translation and power-of-two scaling. Columns that tie are equal up to sign and an
 // offset and may be exchanged freely; differences that are equal only when rounded are no tie.
-int compare_columns(const Motion& m, int i, int j) {
+// x(v, end, column): a coordinate of one of `vertices`.
+template <class Coordinate>
+int compare_columns(int vertices, const Coordinate& x, int i, int j) {
   double sign[2] = {0, 0};
   const int column[2] = {i, j};
   for (int pass = 0; pass < 2; ++pass) {  // magnitudes first, then signs relative to the first non-zero one
-    for (int v = 0; v < m.num_vertices; ++v)
-      for (const double* x : {m.t0(v), m.t1(v)}) {
+    for (int v = 0; v < vertices; ++v)
+      for (int end = 0; end < 2; ++end) {
         Difference d[2];
         for (int k = 0; k < 2; ++k) {
-          d[k] = exact_difference(x[column[k]], m.t0(0)[column[k]]);
+          d[k] = exact_difference(x(v, end, column[k]), x(0, 0, column[k]));
           const double here = d[k].rounded > 0 ? 1 : -1;  // where it is 0, so is the rest
           if (sign[k] == 0 && d[k].rounded != 0) sign[k] = here;
           const double factor = pass == 0 ? here : sign[k];
@@ -56,6 +58,16 @@ int compare_columns(const Motion& m, int i, int j) {
   return 0;
 }
 
+template <class Coordinate>
+std::array<int, 3> widest_first(const std::array<double, 3>& width, int vertices, const Coordinate& x) {
+  std::array<int, 3> axes{0, 1, 2};
+  const auto before = [&](int i, int j) {
+    return width[i] != width[j] ? width[i] > width[j] : compare_columns(vertices, x, i, j) < 0;
+  };
+  std::stable_sort(axes.begin(), axes.end(), before);
+  return axes;
+}
+
 // The widest axis first.
 std::array<int, 3> canonical_axes(const Motion& m) {
   std::array<double, 3> width{};
@@ -65,12 +77,8 @@ std::array<int, 3> canonical_axes(const Motion& m) {
       for (const double* x : {m.t0(v), m.t1(v)}) lo = std::min(lo, x[a]), hi = std::max(hi, x[a]);
     width[a] = hi - lo;
   }
-  std::array<int, 3> axes{0, 1, 2};
-  const auto before = [&](int i, int j) {
-    return width[i] != width[j] ? width[i] > width[j] : compare_columns(m, i, j) < 0;
-  };
-  std::stable_sort(axes.begin(), axes.end(), before);
-  return axes;
+  return widest_first(width, m.num_vertices,
+                      [&](int v, int end, int a) { return (end == 0 ? m.t0(v) : m.t1(v))[a]; });
 }
 
 void store_permuted(Motion& m) {
@@ -145,10 +153,10 @@ std::shared_ptr<const FixedMotion> make_fixed(const MeshData& mesh, const Motion
   return fixed;
 }
 
-// The widths of the scene in order, from the free vertices and what is known of the others; false where a
-// position is not usable or two widths are equal.
-bool axes_from_widths(const PrimitiveFilter& filter, const FixedMotion& fixed, const Positions& x_t0,
-                      const Positions& x_t1, std::array<int, 3>& axes) {
+// The canonical axes of the scene, from the free vertices and what is known of the others; false where a
+// position is not usable.
+bool axes_around(const PrimitiveFilter& filter, const FixedMotion& fixed, const Positions& x_t0,
+                 const Positions& x_t1, std::array<int, 3>& axes) {
   std::array<double, 3> width{};
   for (int a = 0; a < 3; ++a) {
     double lo = fixed.lo[a], hi = fixed.hi[a];
@@ -159,9 +167,9 @@ bool axes_from_widths(const PrimitiveFilter& filter, const FixedMotion& fixed, c
       }
     width[a] = hi - lo;
   }
-  axes = {0, 1, 2};
-  std::sort(axes.begin(), axes.end(), [&](int i, int j) { return width[i] > width[j]; });
-  return width[axes[0]] > width[axes[1]] && width[axes[1]] > width[axes[2]];
+  axes = widest_first(width, int(x_t0.rows()),
+                      [&](int v, int end, int a) { return end == 0 ? x_t0(v, a) : x_t1(v, a); });
+  return true;
 }
 
 // The motion of a mesh whose static vertices are where they were; empty where they are not, or anything else
@@ -170,7 +178,7 @@ Motion motion_around(const MeshData& mesh, std::shared_ptr<const FixedMotion> fi
                      const Positions& x_t1) {
   const PrimitiveFilter& filter = *mesh.filter;
   Motion m;
-  if (!axes_from_widths(filter, *fixed, x_t0, x_t1, m.axes)) return {};
+  if (!axes_around(filter, *fixed, x_t0, x_t1, m.axes)) return {};
   m.x = AlignedArray<double>(std::size_t(mesh.num_vertices) * kMotionStride);
   const auto fill = [&](int v) {
     double* x = m.x.data() + std::size_t(v) * kMotionStride;
