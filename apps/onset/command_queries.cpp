@@ -43,7 +43,8 @@ struct FileTally {
   Tally tally;
 };
 
-// Microseconds of one call; the shortest of three where it took long, so that being interrupted does not count.
+// Microseconds of one call; the shortest of three where it took long, so that being interrupted does not
+// count.
 template <class Call>
 double timed(Call&& call) {
   double shortest = 0;

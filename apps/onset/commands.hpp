@@ -15,5 +15,6 @@ void add_queries(CLI::App& app, Run& run);
 void add_replay(CLI::App& app, Run& run);
 void add_demo(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
+void add_trade(CLI::App& app, Run& run);
 
 }  // namespace app

@@ -29,6 +29,7 @@ void describe(CLI::App& app) {
       "  onset active-set a.obj b.obj --csv -         what touches, one row a pair\n"
       "  onset queries data/edge-edge/*.csv           answers against their truth\n"
       "  onset step a.obj b.obj --dump slow           the queries that matter, for onset replay slow-*.csv\n"
+      "  onset trade before.ply after.ply             what each setting costs and gives, on this scene\n"
       "Exit status: 0 done, whatever the outcome is; 1 bad input, or output that cannot be written; 2 wrong "
       "usage.");
 }
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
   app::add_replay(app, run);
   app::add_demo(app, run);
   app::add_bench(app, run);
+  app::add_trade(app, run);
   describe(app);
   try {
     app.parse(argc, argv);

@@ -50,6 +50,11 @@ void add_row(std::vector<TruthQuery>& queries, std::size_t index, const Row& row
 
 }  // namespace
 
+onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onset::Options& options) {
+  return kind == onset::PairKind::vertex_face ? onset::vertex_face_ccd({query.t0, query.t1}, options)
+                                              : onset::edge_edge_ccd({query.t0, query.t1}, options);
+}
+
 std::vector<TruthQuery> read_queries(const std::string& path) {
   std::ifstream in = open_input(path);
   std::vector<TruthQuery> queries;

@@ -12,6 +12,8 @@ struct TruthQuery {
   bool collides = false;
 };
 
+onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onset::Options& options);
+
 // Eight rows a query, each xn,xd,yn,yd,zn,zd,truth. Throws InputError naming file and line.
 std::vector<TruthQuery> read_queries(const std::string& path);
 

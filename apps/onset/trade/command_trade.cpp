@@ -1,0 +1,117 @@
+// onset trade: what speed costs in accuracy on the user's own scene, and the other way round.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "arguments.hpp"
+#include "commands.hpp"
+#include "error.hpp"
+#include "progress.hpp"
+#include "sweep.hpp"
+#include "trade_report.hpp"
+
+namespace app {
+namespace {
+
+struct Inputs : Arguments {
+  std::string a, b, kind;
+  std::vector<std::string> queries, truth, axes = axis_names();
+  SweepPlan plan;
+  Target target;
+};
+
+std::unique_ptr<Subject> subject_of(const Inputs& inputs, const onset::Options& base) {
+  if (inputs.queries.empty() == inputs.a.empty())
+    throw UsageError("trade: either two frames A and B or --queries");
+  if (!inputs.queries.empty()) {
+    if (!inputs.truth.empty())
+      throw UsageError("trade: --truth is for frames; queries have theirs with them");
+    return query_subject(inputs.queries, inputs.kind, base);
+  }
+  if (inputs.b.empty()) throw UsageError("trade: B is missing");
+  return scene_subject(inputs.a, inputs.b, inputs.truth, base);
+}
+
+void run_trade(const Inputs& inputs) {
+  const onset::Options base = to_options(inputs);
+  Outputs outputs(inputs);
+  std::unique_ptr<Subject> subject;
+  std::vector<Measured> measured;
+  {
+    Progress progress("trade, calls made");
+    subject = subject_of(inputs, base);
+    const std::vector<Setting> all = settings(base, inputs.axes, subject->grounds());
+    measured = sweep(*subject, all, inputs.plan, [&] { progress.advance(); });
+  }
+  const TradeReport report{*subject, measured, pareto_front(measured), inputs.target,
+                           inputs.target.any() ? recommended(measured, inputs.target) : std::nullopt};
+  if (outputs.csv()) write_csv(*outputs.csv(), report);
+  outputs.finish(to_json(report), describe(report));
+}
+
+void add_inputs(CLI::App& command, Inputs& inputs) {
+  command.add_option("A", inputs.a, "Mesh at the start of the step: .ply, .obj or .off, triangles");
+  command.add_option("B", inputs.b, "The same mesh at its end: the same faces in the same order");
+  command
+      .add_option(
+          "--queries", inputs.queries,
+          "Instead of A and B, queries with truth: CSV, eight rows a query; exact times from a toi.csv "
+          "beside the file, if there is one: a row lo,hi a query")
+      ->type_name("FILE ...");
+  command.add_option("--kind", inputs.kind, "Kind of all queries; otherwise each path tells")
+      ->check(CLI::IsMember({"vf", "ee"}))
+      ->type_name("NAME");
+  command
+      .add_option("--truth", inputs.truth,
+                  "Which pairs of A and B collide: PAIRS.json,COLLIDES.json, or a CSV with "
+                  "kind,a,b,toi_lo,toi_hi; may be given several times")
+      ->type_name("FILE ...");
+}
+
+void add_plan(CLI::App& command, Inputs& inputs) {
+  command.add_option("--axis", inputs.axes, "Only these axes around the base setting; all by default")
+      ->check(CLI::IsMember(axis_names()))
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  command.add_option("--repeats", inputs.plan.repeats, "Measurements of each setting, after one to warm up")
+      ->type_name("COUNT")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      .add_option("--seconds", inputs.plan.seconds,
+                  "Measure a setting no more than twice once it took as long")
+      ->type_name("SECONDS")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+void add_target(CLI::App& command, Target& target) {
+  const std::string group = "Targets: recommend a setting of the Pareto front";
+  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
+    command.add_option(name, value, help)->type_name(type)->check(CLI::NonNegativeNumber)->group(group);
+  };
+  add("--target-time-us", target.time_us, "US", "The most accurate that takes no longer; else the fastest");
+  add("--target-false-positives", target.false_positives, "COUNT",
+      "No more false positives (needs the truth)");
+  add("--target-positives", target.positives, "COUNT", "No more positives");
+  add("--target-earliness", target.earliness, "TIME", "Times of impact no earlier on average, step = 1");
+  add("--target-budget", target.budget, "COUNT", "No more pairs that spend max_checks");
+}
+
+}  // namespace
+
+void add_trade(CLI::App& app, Run& run) {
+  const auto inputs = std::make_shared<Inputs>();
+  CLI::App* command = app.add_subcommand(
+      "trade", "Tries the settings around the given ones: time, false positives, earliness, memory of each");
+  add_inputs(*command, *inputs);
+  add_plan(*command, *inputs);
+  add_target(*command, inputs->target);
+  add_common_options(*command, *inputs, "one row a setting");
+  command->footer(
+      "The other options make the base around which each axis is varied. False negatives are counted "
+      "wherever the\n"
+      "truth is known; there are none.");
+  command->callback([&run, inputs] { run = [inputs] { run_trade(*inputs); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,73 @@
+#include "front.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace app {
+namespace {
+
+std::int64_t wrong(const Answers& a) { return a.false_positives.value_or(a.positives); }
+double early(const Answers& a) { return a.early ? a.early->mean() : 0; }
+
+// Beyond a tenth, and beyond what rounding makes of a time near 1.
+bool earlier(double x, double y) { return x > 1.1 * y + 1e-12; }
+
+auto accuracy(const Measured& m) {
+  return std::tuple(wrong(m.answers), m.answers.budget, early(m.answers), spread(m.us).median);
+}
+
+// Nothing tells them apart.
+bool alike(const Measured& a, const Measured& b) {
+  const Answers &x = a.answers, &y = b.answers;
+  const Spread s = spread(a.us), t = spread(b.us);
+  return wrong(x) == wrong(y) && x.budget == y.budget && !earlier(early(x), early(y)) &&
+         !earlier(early(y), early(x)) && s.least <= t.most && t.least <= s.most;
+}
+
+}  // namespace
+
+bool dominates(const Measured& b, const Measured& a) {
+  const Answers &x = b.answers, &y = a.answers;
+  if (wrong(x) > wrong(y) || x.budget > y.budget || earlier(early(x), early(y))) return false;
+  const Spread mine = spread(b.us), theirs = spread(a.us);
+  if (mine.most < theirs.least) return true;
+  const bool better = wrong(x) < wrong(y) || x.budget < y.budget || earlier(early(y), early(x));
+  return better && mine.median <= theirs.least;
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<Measured>& all) {
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto beats_it = [&](const Measured& m) { return m.setting.same_question && dominates(m, all[i]); };
+    const auto same = [&](std::size_t j) { return alike(all[j], all[i]); };
+    if (all[i].setting.same_question && std::none_of(all.begin(), all.end(), beats_it) &&
+        std::none_of(front.begin(), front.end(), same))
+      front.push_back(i);
+  }
+  std::sort(front.begin(), front.end(), [&](std::size_t i, std::size_t j) {
+    return spread(all[i].us).median < spread(all[j].us).median;
+  });
+  return front;
+}
+
+bool Target::met(const Measured& m) const {
+  const Answers& a = m.answers;
+  return (!time_us || spread(m.us).median <= *time_us) &&
+         (!earliness || (a.early && early(a) <= *earliness)) &&
+         (!false_positives || (a.false_positives && *a.false_positives <= *false_positives)) &&
+         (!positives || a.positives <= *positives) && (!budget || a.budget <= *budget);
+}
+
+std::optional<std::size_t> recommended(const std::vector<Measured>& all, const Target& target) {
+  std::vector<std::size_t> fit = pareto_front(all);
+  fit.erase(std::remove_if(fit.begin(), fit.end(), [&](std::size_t i) { return !target.met(all[i]); }),
+            fit.end());
+  if (fit.empty()) return std::nullopt;
+  const bool only_time =
+      target.time_us && !target.earliness && !target.false_positives && !target.positives && !target.budget;
+  if (!only_time) return fit.front();
+  return *std::min_element(fit.begin(), fit.end(),
+                           [&](std::size_t i, std::size_t j) { return accuracy(all[i]) < accuracy(all[j]); });
+}
+
+}  // namespace app

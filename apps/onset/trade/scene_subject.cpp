@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <thread>
+
+#include "memory.hpp"
+#include "output.hpp"
+#include "scene_command.hpp"
+#include "subject.hpp"
+#include "truth_file.hpp"
+
+namespace app {
+namespace {
+
+struct Found {
+  std::uint64_t key;
+  double toi;
+};
+
+std::vector<Found> found(const onset::ActiveSet& set) {
+  std::vector<Found> rows;
+  for (std::size_t i = 0; i < set.size(); ++i)
+    rows.push_back({pair_key(set.kind[i], set.a[i], set.b[i]), set.toi[i]});
+  return rows;
+}
+
+// Calls both(x, y) for rows with the same key, only_x(x) for those of xs alone; both sorted by key.
+template <class X, class Y, class Both, class OnlyX>
+void match(const std::vector<X>& xs, const std::vector<Y>& ys, Both&& both, OnlyX&& only_x) {
+  auto y = ys.begin();
+  for (const X& x : xs) {
+    while (y != ys.end() && y->key < x.key) ++y;
+    if (y != ys.end() && y->key == x.key)
+      both(x, *y);
+    else
+      only_x(x);
+  }
+}
+
+class SceneSubject : public Subject {
+ public:
+  SceneSubject(const std::string& a, const std::string& b, const std::vector<std::string>& truth,
+               const onset::Options& base)
+      : name_(a + " " + b), scene_(read_scene(a, b)), truth_(read_scene_truth(truth, scene_.mesh)) {
+    has_truth_ = !truth.empty();
+    for (const CollidingPair& pair : truth_) exact_times_ += pair.toi.known();
+    reference_options_ = finest(base);
+    const onset::ActiveSet set = active_set(reference_options_);
+    extent_ = set.stats.extent;
+    reference_ = found(set);
+  }
+
+  Grounds grounds() const override {
+    const onset::Mesh& m = scene_.mesh;
+    return {extent_, m.num_vertices() + m.num_edges() + m.num_faces(),
+            int(std::max(1u, std::thread::hardware_concurrency()))};
+  }
+  std::string describe() const override { return name_ + ": " + describe_sizes(scene_.mesh).substr(12); }
+  std::string reference() const override {
+    if (exact_times_ > 0)
+      return format("the exact times of %lld pairs", static_cast<long long>(exact_times_));
+    return format("the times at %s", in_words(reference_options_).c_str());
+  }
+  const char* unit() const override { return "wall time of one active set"; }
+
+  void answer(Measured& m) override {
+    onset::ActiveSet set;
+    m.answers.peak_bytes = peak_bytes([&] { set = active_set(m.setting.options); });
+    fill(m.answers, set, m.setting.options);
+  }
+
+  void time(Measured& m) override {
+    const Stopwatch watch;
+    const onset::ActiveSet set = active_set(m.setting.options);
+    const Seconds seconds = watch.elapsed();
+    m.wall.push_back(1e6 * seconds.wall), m.cpu.push_back(1e6 * seconds.cpu);
+    m.us = m.wall;
+  }
+
+ private:
+  onset::ActiveSet active_set(const onset::Options& options) const {
+    return onset::construct_active_set(scene_.mesh, scene_.x_t0, scene_.x_t1, options);
+  }
+
+  void fill(Answers& a, const onset::ActiveSet& set, const onset::Options& options) const {
+    const onset::Stats& s = set.stats;
+    a.asked = s.candidates.total(), a.positives = std::int64_t(set.size());
+    a.budget = s.budget.total(), a.inclusion = s.inclusion.total(), a.checks = s.checks;
+    a.tolerance = s.tolerance, a.achieved_tolerance = s.achieved_tolerance;
+    if (const std::ptrdiff_t first = set.earliest(); first >= 0) a.earliest = set.toi[std::size_t(first)];
+    const std::vector<Found> rows = found(set);
+    if (has_truth_) compare_with_truth(a, rows, options);
+    if (exact_times_ == 0 && same_question(options, reference_options_)) {
+      a.early.emplace();
+      match(
+          reference_, rows,
+          [&](const Found& exact, const Found& row) { a.early->add(row.toi, exact.toi, 1); },
+          [](const Found&) {});
+    }
+  }
+
+  // Whoever touches comes within any separation too, so that missing it, or being late, is wrong for any.
+  void compare_with_truth(Answers& a, const std::vector<Found>& rows, const onset::Options& options) const {
+    std::int64_t hits = 0, misses = 0;
+    Earliness early;
+    match(
+        truth_, rows,
+        [&](const CollidingPair& pair, const Found& row) {
+          ++hits;
+          if (pair.toi.known()) early.add(row.toi, pair.toi.lo, pair.toi.hi);
+        },
+        [&](const CollidingPair&) { ++misses; });
+    a.false_negatives = misses;
+    if (exact_times_ > 0) a.early = early;
+    if (options.min_separation == 0) a.false_positives = a.positives - hits;
+  }
+
+  std::string name_;
+  Scene scene_;
+  SceneTruth truth_;
+  bool has_truth_ = false;
+  std::int64_t exact_times_ = 0;
+  double extent_ = 1;
+  onset::Options reference_options_;
+  std::vector<Found> reference_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subject> scene_subject(const std::string& a, const std::string& b,
+                                       const std::vector<std::string>& truth, const onset::Options& base) {
+  return std::make_unique<SceneSubject>(a, b, truth, base);
+}
+
+onset::Options finest(onset::Options base) {
+  base.tolerance.reset();
+  base.relative_tolerance = 1e-12;
+  base.max_checks = std::max<std::int64_t>(base.max_checks, 1'000'000);
+  base.narrow_phase = onset::NarrowPhaseMethod::automatic;
+  return base;
+}
+
+}  // namespace app
