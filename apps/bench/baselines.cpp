@@ -1,0 +1,150 @@
+// The library and the root finders of other codes, asked the same queries with truth.
+//
+//   onset_baselines [--every N] [--boxes N] [--separation D] FILE...
+//
+// FILE: eight rows a query, the path tells the kind; exact times from toi.csv beside it, if there. Of each
+// file every N-th query. Prints JSON: the machine, and for each file what each finder answered and the
+// microseconds it took, the better of two runs for each query.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "error.hpp"
+#include "finder.hpp"
+#include "machine.hpp"
+#include "truth_file.hpp"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Finder = std::function<app::FinderAnswer(onset::PairKind, const app::TruthQuery&)>;
+
+struct NamedFinder {
+  std::string name;
+  Finder find;
+};
+
+struct Settings {
+  std::size_t every = 1;
+  double separation = 0;
+  app::FinderLimits limits;
+};
+
+Finder onset_with(const onset::Options& options) {
+  return [options](onset::PairKind kind, const app::TruthQuery& query) {
+    const onset::QueryResult r = app::ask(kind, query, options);
+    return app::FinderAnswer{r.collides(), r.toi, r.outcome == onset::Outcome::budget};
+  };
+}
+
+std::vector<NamedFinder> finders(const Settings& s) {
+  onset::Options options, inclusion, fine;
+  options.min_separation = inclusion.min_separation = fine.min_separation = s.separation;
+  inclusion.narrow_phase = onset::NarrowPhaseMethod::inclusion;
+  inclusion.tolerance = 1e-6, inclusion.max_checks = s.limits.boxes;
+  fine.relative_tolerance = 1e-12;
+  std::vector<NamedFinder> all{{"onset", onset_with(options)},
+                               {"onset, 1e-12", onset_with(fine)},
+                               {"onset, inclusion alone", onset_with(inclusion)}};
+  if (s.separation > 0) return all;  // the others know no separation
+  const auto limits = s.limits;
+  all.push_back({"IRF", [limits](auto kind, auto& q) { return interval_multivariate(kind, q, limits); }});
+  all.push_back({"UIRF", [limits](auto kind, auto& q) { return interval_univariate(kind, q, limits); }});
+  all.push_back({"cubic", [](auto kind, auto& q) { return app::floating_point_cubic(kind, q); }});
+  return all;
+}
+
+// Counts of one finder on one file.
+struct Tally {
+  std::int64_t queries = 0, positives = 0, false_positives = 0, false_negatives = 0, late = 0, zero = 0,
+               cut = 0;
+  double total_us = 0, slowest_us = 0, early = 0, latest = 0;
+
+  void add(const app::FinderAnswer& answer, bool truth, const app::ExactToi& exact, double us) {
+    ++queries, positives += answer.collides, cut += answer.cut;
+    false_positives += answer.collides && !truth, false_negatives += truth && !answer.collides;
+    total_us += us, slowest_us = std::max(slowest_us, us);
+    if (!truth || !answer.collides || !exact.known()) return;
+    late += answer.toi > exact.hi, zero += answer.toi == 0 && exact.lo > 0;
+    early += std::max(0.0, exact.lo - answer.toi), latest = std::max(latest, answer.toi - exact.hi);
+  }
+  Json json(const std::string& name) const {
+    return {{"name", name},
+            {"queries", queries},
+            {"positives", positives},
+            {"false_positives", false_positives},
+            {"false_negatives", false_negatives},
+            {"late", late},
+            {"latest", latest},
+            {"zero", zero},
+            {"cut", cut},
+            {"total_us", total_us},
+            {"slowest_us", slowest_us},
+            {"early_sum", early}};
+  }
+};
+
+template <class Call>
+double microseconds(Call&& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
+Json measure(const NamedFinder& finder, onset::PairKind kind, const std::vector<app::TruthQuery>& queries,
+             const std::vector<app::ExactToi>& times, std::size_t every) {
+  constexpr double kLong = 1000;  // not asked twice
+  Tally tally;
+  for (std::size_t i = 0; i < queries.size(); i += every) {
+    app::FinderAnswer answer;
+    double us = microseconds([&] { answer = finder.find(kind, queries[i]); });
+    if (us < kLong) us = std::min(us, microseconds([&] { answer = finder.find(kind, queries[i]); }));
+    tally.add(answer, queries[i].collides, times.empty() ? app::ExactToi() : times[i], us);
+  }
+  return tally.json(finder.name);
+}
+
+Json measure_file(const std::string& path, const Settings& settings) {
+  const onset::PairKind kind = app::kind_from_path(path);
+  const std::vector<app::TruthQuery> queries = app::read_queries(path);
+  std::vector<bool> collides;
+  for (const app::TruthQuery& q : queries) collides.push_back(q.collides);
+  const std::vector<app::ExactToi> times = app::read_query_toi(path, collides);
+  Json row = {{"file", path}, {"kind", kind == onset::PairKind::vertex_face ? "vf" : "ee"}};
+  for (const NamedFinder& finder : finders(settings))
+    row["finders"].push_back(measure(finder, kind, queries, times, settings.every));
+  return row;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  Settings settings;
+  std::vector<std::string> files;
+  for (int i = 1; i < argc; ++i) {
+    const auto value = [&] {
+      if (i + 1 == argc) throw app::UsageError(std::string(argv[i]) + ": a value is missing");
+      return argv[++i];
+    };
+    if (!std::strcmp(argv[i], "--every"))
+      settings.every = std::max<std::size_t>(1, std::strtoull(value(), nullptr, 10));
+    else if (!std::strcmp(argv[i], "--boxes"))
+      settings.limits.boxes = std::max(1, std::atoi(value()));
+    else if (!std::strcmp(argv[i], "--separation"))
+      settings.separation = std::strtod(value(), nullptr);
+    else
+      files.push_back(argv[i]);
+  }
+  Json report = {{"machine", app::machine()},         {"every", settings.every},
+                 {"boxes", settings.limits.boxes},    {"width", settings.limits.width},
+                 {"separation", settings.separation}, {"files", Json::array()}};
+  for (const std::string& file : files) report["files"].push_back(measure_file(file, settings));
+  std::printf("%s\n", report.dump(1).c_str());
+} catch (const std::exception& e) {
+  std::fprintf(stderr, "onset_baselines: %s\n", e.what());
+  return 1;
+}
