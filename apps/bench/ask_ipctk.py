@@ -1,113 +1,89 @@
 #!/usr/bin/env python3
 """ipctk, asked queries with truth one by one; the counts of onset_baselines, as JSON on stdout.
 
-    ask_ipctk.py [--every N] [--checks N] FILE ...
+    ask_ipctk.py [--every N] [--checks N] [--limit SECONDS] FOLDER ...
 
-Each FILE as for onset_baselines; of each every N-th query. Times include the call from Python; what a call costs that does
-nothing (a test of two boxes) is printed as call_us. --checks: most iterations of TightInclusionCCD and AdditiveCCD; a
-query that needs them all is not told from others by the wheel. The wheel has no inexact algorithm in three dimensions.
+Each FOLDER holds data.csv and toi.csv, as onset_recorded_queries and its like write them; of each every N-th query. Times
+include the call from Python; what a call costs that does nothing (a test of two boxes) is given as call_us. --checks: most
+iterations of TightInclusionCCD and AdditiveCCD. A query that is not answered within the limit is cut: counted as one,
+and as taking the limit. The wheel has no inexact algorithm in three dimensions.
 """
 
 import argparse
-import csv
 import json
-import math
-import os
-import re
-import sys
 import time
-from fractions import Fraction
 from pathlib import Path
 
 import ipctk
 import numpy as np
+from compare_accuracy import ADDITIVE, KINDS, TIGHT, Ipctk, read_queries
+
+COUNTS = ["positives", "false_positives", "false_negatives", "late", "latest", "zero", "cut"]
 
 
-def finders(checks):
+def finders(options):
+    def finder(name, **more):
+        return Ipctk(name, options.limit, max_iterations=options.checks, **more)
+
     return {
-        "TightInclusionCCD": ipctk.TightInclusionCCD(max_iterations=checks),
-        "TightInclusionCCD, rescaling 1": ipctk.TightInclusionCCD(max_iterations=checks, conservative_rescaling=1.0),
-        "AdditiveCCD": ipctk.AdditiveCCD(max_iterations=checks),
+        TIGHT: finder(TIGHT),
+        f"{TIGHT}, rescaling 1": finder(TIGHT, conservative_rescaling=1.0),
+        ADDITIVE: finder(ADDITIVE),
     }
 
 
-def kind_of(path):
-    for part in reversed(Path(path).parts):
-        words = re.split("[^a-z]+", part.lower().replace("vertex-face", "vf").replace("edge-edge", "ee"))
-        for kind in ("vf", "ee"):
-            if kind in words:
-                return kind
-    sys.exit(f"{path}: vertex-face or edge-edge?")
+def count(tally, query, answer):
+    truth = query.lo < float("inf")
+    tally["positives"] += answer.collides
+    tally["false_positives"] += answer.collides and not truth
+    tally["false_negatives"] += truth and not answer.collides
+    if truth and answer.collides:
+        tally["late"] += not answer.toi <= query.hi  # nan is late
+        tally["latest"] = max(tally["latest"], answer.toi - query.hi)
+        tally["zero"] += answer.toi == 0 and query.lo > 0
+        tally["early_sum"] += max(0.0, query.lo - answer.toi)
 
 
-def read_queries(path):
-    """[(eight points, collides, lo, hi)]; lo and hi are nan where there is no toi.csv."""
-    with open(path) as file:
-        rows = list(csv.reader(file))
-    beside = Path(path).with_name("toi.csv")
-    brackets = [[math.nan] * 2] * (len(rows) // 8)
-    if beside.exists():
-        with open(beside) as file:
-            brackets = [[float.fromhex(x) for x in row] for row in csv.reader(file)]
-    points = [np.array([float(Fraction(int(r[i]), int(r[i + 1]))) for i in (0, 2, 4)]) for r in rows]
-    return [(points[8 * i : 8 * i + 8], rows[8 * i][6] == "1", *bracket) for i, bracket in enumerate(brackets)]
+def measure(name, finder, queries):
+    tally = {"name": name, "queries": len(queries), **dict.fromkeys(COUNTS, 0)}
+    tally |= {"total_us": 0.0, "slowest_us": 0.0, "early_sum": 0.0}
+    for query in queries:
+        answer, seconds = finder.ask(query)
+        if answer is None:
+            tally["cut"] += 1
+        else:
+            if seconds < 1e-3:
+                seconds = min(seconds, finder.ask(query)[1])
+            count(tally, query, answer)
+        tally["total_us"] += 1e6 * seconds
+        tally["slowest_us"] = max(tally["slowest_us"], 1e6 * seconds)
+    return tally
 
 
-def ask(call, points):
-    start = time.perf_counter()
-    try:
-        collides, toi = call(*points)
-    except Exception:  # no answer: neither a contact nor a time
-        collides, toi = False, math.nan
-    return 1e6 * (time.perf_counter() - start), collides, toi
-
-
-def tally(name, call, queries):
-    t = {"name": name, "queries": len(queries)}
-    t |= dict.fromkeys(["positives", "false_positives", "false_negatives", "late", "latest", "zero", "cut"], 0)
-    t |= {"total_us": 0.0, "slowest_us": 0.0, "early_sum": 0.0}
-    for points, truth, lo, hi in queries:
-        us, collides, toi = ask(call, points)
-        if us < 1000:
-            us = min(us, ask(call, points)[0])
-        t["total_us"] += us
-        t["slowest_us"] = max(t["slowest_us"], us)
-        t["positives"] += collides
-        t["false_positives"] += collides and not truth
-        t["false_negatives"] += truth and not collides
-        if truth and collides and lo <= hi:
-            t["late"] += not toi <= hi
-            t["latest"] = max(t["latest"], toi - hi)
-            t["zero"] += toi == 0 and lo > 0
-            t["early_sum"] += max(0.0, lo - toi)
-    return t
-
-
-def call_us(points):
-    return min(ask(lambda *x: (ipctk.point_triangle_aabb_ccd(*x, 0.0), 1.0), points)[0] for _ in range(1000))
+def call_us(query):
+    points, shortest = [np.array(p) for p in query.points], float("inf")
+    for _ in range(1000):
+        start = time.perf_counter()
+        ipctk.point_triangle_aabb_ccd(*points, 0.0)
+        shortest = min(shortest, 1e6 * (time.perf_counter() - start))
+    return shortest
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("files", nargs="+", metavar="FILE")
+    parser.add_argument("folders", nargs="+", metavar="FOLDER", type=Path)
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--checks", type=int, default=1_000_000)
+    parser.add_argument("--limit", type=float, default=3.0)
     options = parser.parse_args()
-    report = os.fdopen(os.dup(1), "w")
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # its root finder logs to stdout
-    ipctk.set_num_threads(1)
-    ipctk.set_logger_level(ipctk.LoggerLevel.off)
-    result = {"ipctk": ipctk.__version__, "every": options.every, "checks": options.checks, "files": []}
-    for path in options.files:
-        kind, queries = kind_of(path), read_queries(path)[:: options.every]
-        result.setdefault("call_us", call_us(queries[0][0]))
-        row = {"file": path, "kind": kind, "finders": []}
-        for name, ccd in finders(options.checks).items():
-            call = ccd.point_triangle_ccd if kind == "vf" else ccd.edge_edge_ccd
-            row["finders"].append(tally(name, call, queries))
-        result["files"].append(row)
-    json.dump(result, report, indent=1)
-    report.close()
+    peers = finders(options)
+    result = {"ipctk": ipctk.__version__, "every": options.every, "checks": options.checks, "limit": options.limit, "files": []}
+    for folder in options.folders:
+        queries = read_queries(folder, folder.name)[:: options.every]
+        result.setdefault("call_us", call_us(queries[0]))
+        tallies = [measure(name, finder, queries) for name, finder in peers.items()]
+        result["files"].append({"file": str(folder / "data.csv"), "kind": KINDS[folder.name], "finders": tallies})
+    print(json.dumps(result, indent=1))
 
 
 if __name__ == "__main__":

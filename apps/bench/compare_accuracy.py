@@ -125,14 +125,14 @@ class Onset:
 
 # ---- ipctk, in a process that can be ended
 
-def serve_ipctk(name, pipe):
+def serve_ipctk(name, options, pipe):
     import ipctk
     import numpy as np
 
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # its root finder logs to stdout
     ipctk.set_num_threads(1)
     ipctk.set_logger_level(ipctk.LoggerLevel.error)
-    ccd = getattr(ipctk, name)()
+    ccd = getattr(ipctk, name)(**options)
     ask = {"vertex-face": ccd.point_triangle_ccd, "edge-edge": ccd.edge_edge_ccd}
     pipe.send("ready")
     while True:
@@ -150,14 +150,14 @@ def serve_ipctk(name, pipe):
 
 
 class Ipctk:
-    def __init__(self, name, limit):
-        self.name, self.limit = name, limit
+    def __init__(self, name, limit, **options):
+        self.name, self.limit, self.options = name, limit, options
         self.start()
 
     def start(self):
         context = multiprocessing.get_context("spawn")
         self.pipe, theirs = context.Pipe()
-        self.process = context.Process(target=serve_ipctk, args=(self.name, theirs), daemon=True)
+        self.process = context.Process(target=serve_ipctk, args=(self.name, self.options, theirs), daemon=True)
         self.process.start()
         if not self.pipe.poll(60):
             sys.exit("ipctk does not start")

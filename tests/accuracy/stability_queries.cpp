@@ -2,7 +2,7 @@
 //
 //   onset_stability_queries FOLDER [COUNT] [SEED]
 //
-// FOLDER/scale/<1e-12 .. 1e12>, FOLDER/offset/<0, 1e0 .. 1e12>: COUNT queries of each kind
+// FOLDER/scale/<1e-12, 1e-10 .. 1e12>, FOLDER/offset/<0, 1e0, 1e2 .. 1e12>: COUNT queries of each kind
 // (query_folder.hpp), of unit size before they are scaled, or moved by (s, s, s). Coordinates are rounded to
 // doubles, and the truth is that of the rounded ones: at a large offset it is another question than at none,
 // and as exact.
@@ -44,7 +44,7 @@ int main(int argc, char** argv) try {
   const std::string folder = argv[1];
   const int count = argc > 2 ? std::atoi(argv[2]) : 50;
   const std::uint64_t seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
-  for (int exponent = -12; exponent <= 12; ++exponent) {
+  for (int exponent = -12; exponent <= 12; exponent += 2) {
     const double s = std::pow(10.0, exponent);
     const std::string value = "1e" + std::to_string(exponent);
     write(folder + "/scale/" + value, count, seed, [s](const auto& q) { return scenes::scaled(q, s); });

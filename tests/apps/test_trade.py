@@ -81,7 +81,7 @@ class Trade(AppTest):
         self.assertTrue(front)
 
         def clearly_better(x, y):
-            return (x["us"]["max"] < y["us"]["min"] and x["positives"] <= y["positives"] and
+            return (x["us"]["max"] < y["us"]["min"] and x["checks"] != y["checks"] and x["positives"] <= y["positives"] and
                     x["budget"] <= y["budget"] and x["early"]["mean"] <= y["early"]["mean"])
 
         for s in front:

@@ -77,8 +77,7 @@ void add_plan(CLI::App& command, Inputs& inputs) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
-      .add_option("--seconds", inputs.plan.seconds,
-                  "Measure a setting no more than twice once it took as long")
+      .add_option("--seconds", inputs.plan.seconds, "Measure a setting again while it has not taken as long")
       ->type_name("SECONDS")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <vector>
 
 namespace app {
 namespace {
@@ -9,19 +10,39 @@ namespace {
 std::int64_t wrong(const Answers& a) { return a.false_positives.value_or(a.positives); }
 double early(const Answers& a) { return a.early ? a.early->mean() : 0; }
 
-// Beyond a tenth, and beyond what rounding makes of a time near 1.
-bool earlier(double x, double y) { return x > 1.1 * y + 1e-12; }
+// Beyond a tenth, and beyond a billionth of the step, which no simulator can tell.
+bool earlier(double x, double y) { return x > 1.1 * y + 1e-9; }
 
 auto accuracy(const Measured& m) {
   return std::tuple(wrong(m.answers), m.answers.budget, early(m.answers), spread(m.us).median);
 }
 
+// The middle half of the measurements: unlike the extremes it does not widen with their number.
+struct Middle {
+  double low, median, high;
+};
+
+Middle middle(std::vector<double> us) {
+  std::sort(us.begin(), us.end());
+  const std::size_t last = us.size() - 1;
+  return {us[last / 4], spread(us).median, us[last - last / 4]};
+}
+
+// Whether they did the same, check by check: any difference in time is the machine's.
+bool same_work(const Measured& a, const Measured& b) {
+  const onset::Options &o = a.setting.options, &p = b.setting.options;
+  const Answers &x = a.answers, &y = b.answers;
+  return o.threads == p.threads && o.kernel == p.kernel && o.broad_phase == p.broad_phase &&
+         o.narrow_phase == p.narrow_phase && x.checks == y.checks && x.inclusion == y.inclusion &&
+         x.positives == y.positives && x.budget == y.budget;
+}
+
 // Nothing tells them apart.
 bool alike(const Measured& a, const Measured& b) {
   const Answers &x = a.answers, &y = b.answers;
-  const Spread s = spread(a.us), t = spread(b.us);
+  const Middle s = middle(a.us), t = middle(b.us);
   return wrong(x) == wrong(y) && x.budget == y.budget && !earlier(early(x), early(y)) &&
-         !earlier(early(y), early(x)) && s.least <= t.most && t.least <= s.most;
+         !earlier(early(y), early(x)) && (same_work(a, b) || (s.low <= t.high && t.low <= s.high));
 }
 
 }  // namespace
@@ -29,10 +50,11 @@ bool alike(const Measured& a, const Measured& b) {
 bool dominates(const Measured& b, const Measured& a) {
   const Answers &x = b.answers, &y = a.answers;
   if (wrong(x) > wrong(y) || x.budget > y.budget || earlier(early(x), early(y))) return false;
-  const Spread mine = spread(b.us), theirs = spread(a.us);
-  if (mine.most < theirs.least) return true;
+  if (same_work(a, b)) return false;
+  const Middle mine = middle(b.us), theirs = middle(a.us);
+  if (mine.high < theirs.low) return true;
   const bool better = wrong(x) < wrong(y) || x.budget < y.budget || earlier(early(y), early(x));
-  return better && mine.median <= theirs.least;
+  return better && mine.median <= theirs.low;
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<Measured>& all) {

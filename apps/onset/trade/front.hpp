@@ -9,8 +9,9 @@
 namespace app {
 
 // Whether `b` is to be preferred to `a` whatever counts: no less accurate in any respect (false positives, or
-// all positives where the truth is not known; mean earliness; spent budgets) and faster beyond the spread of
-// both, or more accurate in one and not slower. Earliness within a tenth counts as equal.
+// all positives where the truth is not known; mean earliness; spent budgets) and faster, the middle halves of
+// both measurements apart, or more accurate in one and not slower, its median at most the other's lower
+// quartile. Earliness within a tenth counts as equal.
 bool dominates(const Measured& b, const Measured& a);
 
 // Indices of the settings that no other dominates, fastest first; of settings that nothing tells apart the

@@ -1,24 +1,21 @@
 #include "sweep.hpp"
 
-#include <numeric>
-
 namespace app {
 
 std::vector<Measured> sweep(Subject& subject, const std::vector<Setting>& settings, const SweepPlan& plan,
                             const std::function<void()>& done) {
   std::vector<Measured> all;
+  std::vector<double> warm_up;  // seconds
   for (const Setting& setting : settings) {
     all.push_back({setting, {}, {}, {}, {}, {}, {}});
+    const Stopwatch watch;
     subject.answer(all.back());
+    warm_up.push_back(watch.elapsed().wall);
     done();
   }
-  const double scale = subject.grounds().primitives ? 1 : double(all.front().answers.asked);
-  const auto spent = [&](const Measured& m) {
-    return 1e-6 * scale * std::accumulate(m.wall.begin(), m.wall.end(), 0.0);
-  };
   for (int round = 0; round < plan.repeats; ++round)
-    for (Measured& m : all)
-      if (round < 2 || spent(m) < plan.seconds) subject.time(m), done();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (round == 0 || (round + 1) * warm_up[i] < plan.seconds) subject.time(all[i]), done();
   return all;
 }
 

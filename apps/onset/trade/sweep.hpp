@@ -10,7 +10,7 @@ namespace app {
 
 struct SweepPlan {
   int repeats = 9;
-  double seconds = 5;  // a setting is measured again until this much is spent on it, at least twice
+  double seconds = 5;  // a setting is measured once, and again as long as this is not spent on it
 };
 
 // One round for the answers, which warms up too, then rounds over all settings in turn, so that what drifts
