@@ -61,7 +61,7 @@ void add_accuracy(CLI::App& command, onset::Options& o) {
                               });
   tolerance->excludes(relative);
   add(command, "--max-checks", "COUNT",
-      "Checks that one pair may cost, >= 1; then its time so far counts [1000000]",
+      "Checks that one pair may cost, >= 1; then its time so far counts [10000]",
       [&o](const std::string& s) { o.max_checks = parse_whole("--max-checks", s, 1, INT64_MAX); });
   add(command, "--min-separation", "LENGTH",
       "Pairs must stay farther apart than this (model length, >= 0) [0]",
