@@ -1,6 +1,7 @@
 // Everything a simulator includes.
 #pragma once
 
+#include <onset/candidates.hpp>
 #include <onset/close_pairs.hpp>
 #include <onset/constraints.hpp>
 #include <onset/line_search.hpp>

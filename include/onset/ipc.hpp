@@ -1,0 +1,266 @@
+// The calls of ipc-toolkit's collision detection by their names there, so that code for it compiles after
+// changing an include and a namespace: ipc::compute_collision_free_stepsize becomes
+// onset::ipc::compute_collision_free_stepsize. 3D surfaces, linear motion. What onset says beyond a number
+// (outcome, limiting pair) is in onset/pipeline.hpp.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <functional>
+#include <onset/candidates.hpp>
+#include <onset/line_search.hpp>
+#include <onset/pipeline.hpp>
+#include <stdexcept>
+#include <vector>
+
+namespace onset::ipc {
+
+// Broad phases are chosen by name in ipc-toolkit and by Options here: a pointer to this is accepted and
+// ignored.
+class BroadPhase {};
+
+// What TightInclusionCCD takes there. tolerance: model length; max_iterations: checks a pair may cost; each
+// step keeps 1 - conservative_rescaling of every gap, so that the next one is not 0.
+struct TightInclusionCCD {
+  double tolerance = 1e-6;
+  long max_iterations = 10000;
+  double conservative_rescaling = 0.8;
+};
+using NarrowPhaseCCD = TightInclusionCCD;
+inline const TightInclusionCCD DEFAULT_NARROW_PHASE_CCD{};
+
+// A surface, and how it lies in a full (volume) mesh. Vertices are rows.
+class CollisionMesh {
+ public:
+  // displacement_map: dim #V x dim #full or #V x #full, displacements of the full mesh to those of the
+  // surface; empty: the same. Edges that are empty are those of the faces.
+  CollisionMesh(const Eigen::MatrixXd& rest_positions, const Eigen::MatrixXi& edges = {},
+                const Eigen::MatrixXi& faces = {}, const Eigen::SparseMatrix<double>& displacement_map = {})
+      : rest_(rest_positions),
+        full_rest_(rest_positions),
+        edges_(edges.size() == 0 && faces.size() > 0 ? onset::edges(faces) : edges),
+        faces_(faces),
+        map_(displacement_map),
+        mesh_(rest_, edges_, faces_) {
+    for (int v = 0; v < rest_.rows(); ++v) full_vertex_.push_back(v);
+  }
+
+  // The surface's vertices are those of the full mesh that an edge or a face uses, in their order.
+  static CollisionMesh build_from_full_mesh(const Eigen::MatrixXd& full_rest_positions,
+                                            const Eigen::MatrixXi& edges, const Eigen::MatrixXi& faces) {
+    std::vector<int> surface(std::size_t(full_rest_positions.rows()), -1), full;
+    const auto use = [&](const Eigen::MatrixXi& ids) {
+      for (Eigen::Index i = 0; i < ids.size(); ++i) {
+        const int v = ids.data()[i];
+        if (v < 0 || v >= full_rest_positions.rows())
+          throw std::invalid_argument("vertex " + std::to_string(v) + " is out of range, the full mesh has " +
+                                      std::to_string(full_rest_positions.rows()));
+        surface[std::size_t(v)] = 0;
+      }
+    };
+    use(edges), use(faces);
+    for (std::size_t v = 0; v < surface.size(); ++v)
+      if (surface[v] == 0) surface[v] = int(full.size()), full.push_back(int(v));
+    const auto renumbered = [&](Eigen::MatrixXi ids) {
+      for (Eigen::Index i = 0; i < ids.size(); ++i) ids.data()[i] = surface[std::size_t(ids.data()[i])];
+      return ids;
+    };
+    Eigen::MatrixXd rest(Eigen::Index(full.size()), full_rest_positions.cols());
+    for (std::size_t v = 0; v < full.size(); ++v)
+      rest.row(Eigen::Index(v)) = full_rest_positions.row(full[v]);
+    CollisionMesh mesh(rest, renumbered(edges), renumbered(faces));
+    mesh.full_vertex_ = full;
+    mesh.full_rest_ = full_rest_positions;
+    return mesh;
+  }
+
+  const Eigen::MatrixXd& rest_positions() const { return rest_; }
+  const Eigen::MatrixXi& edges() const { return edges_; }
+  const Eigen::MatrixXi& faces() const { return faces_; }
+  std::size_t num_vertices() const { return std::size_t(rest_.rows()); }
+  std::size_t num_edges() const { return std::size_t(edges_.rows()); }
+  std::size_t num_faces() const { return std::size_t(faces_.rows()); }
+  std::size_t ndof() const { return 3 * num_vertices(); }
+  std::size_t full_num_vertices() const {
+    return std::size_t(map_.size() ? full_columns() : full_rest_.rows());
+  }
+  std::size_t full_ndof() const { return 3 * full_num_vertices(); }
+  int dim() const { return 3; }
+  int to_full_vertex_id(int vertex) const { return full_vertex_.at(std::size_t(vertex)); }
+
+  // The surface's part of full positions. Throws std::invalid_argument for a wrong number of rows.
+  Eigen::MatrixXd vertices(const Eigen::MatrixXd& full_positions) const {
+    require(full_positions, full_rest_.rows());
+    return map_.size() ? displace_vertices(full_positions - full_rest_) : chosen(full_positions);
+  }
+  Eigen::MatrixXd displace_vertices(const Eigen::MatrixXd& full_displacements) const {
+    return rest_ + map_displacements(full_displacements);
+  }
+  Eigen::MatrixXd map_displacements(const Eigen::MatrixXd& full_displacements) const {
+    require(full_displacements, Eigen::Index(full_num_vertices()));
+    if (map_.size() == 0) return chosen(full_displacements);
+    if (map_.rows() == rest_.rows()) return map_ * full_displacements;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const RowMajor rows = full_displacements;
+    const Eigen::VectorXd x = map_ * Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
+    return Eigen::Map<const RowMajor>(x.data(), rest_.rows(), 3);
+  }
+
+  // A gradient (ndof) or Hessian (ndof x ndof) of the surface's dofs (x y z of vertex 0, ...) in those of the
+  // full mesh.
+  Eigen::VectorXd to_full_dof(const Eigen::VectorXd& x) const { return to_full().transpose() * x; }
+  Eigen::SparseMatrix<double> to_full_dof(const Eigen::SparseMatrix<double>& hessian) const {
+    const Eigen::SparseMatrix<double> m = to_full();
+    return Eigen::SparseMatrix<double>(m.transpose() * hessian * m);
+  }
+
+  // Whether two vertices may collide; empty: all. A pair of primitives is left out where none of its pairs of
+  // vertices may. Asked once for each pair that Candidates::build finds, on its thread.
+  std::function<bool(std::size_t, std::size_t)> can_collide;
+
+  const onset::Mesh& onset_mesh() const { return mesh_; }
+
+ private:
+  static void require(const Eigen::MatrixXd& x, Eigen::Index rows) {
+    if (x.rows() != rows || x.cols() != 3)
+      throw std::invalid_argument("got " + std::to_string(x.rows()) + " x " + std::to_string(x.cols()) +
+                                  " values; the full mesh has " + std::to_string(rows) + " vertices");
+  }
+  Eigen::Index full_columns() const { return map_.rows() == rest_.rows() ? map_.cols() : map_.cols() / 3; }
+  Eigen::MatrixXd chosen(const Eigen::MatrixXd& full) const {
+    Eigen::MatrixXd x(rest_.rows(), 3);
+    for (Eigen::Index v = 0; v < x.rows(); ++v) x.row(v) = full.row(full_vertex_[std::size_t(v)]);
+    return x;
+  }
+  Eigen::SparseMatrix<double> to_full() const {
+    if (map_.size() && map_.rows() != rest_.rows()) return map_;
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](Eigen::Index v, Eigen::Index full, double value) {
+      for (int a = 0; a < 3; ++a) entries.emplace_back(int(3 * v + a), int(3 * full + a), value);
+    };
+    for (int column = 0; column < map_.outerSize(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator i(map_, column); i; ++i)
+        add(i.row(), i.col(), i.value());
+    if (map_.size() == 0)
+      for (std::size_t v = 0; v < full_vertex_.size(); ++v) add(Eigen::Index(v), full_vertex_[v], 1);
+    Eigen::SparseMatrix<double> m{Eigen::Index(ndof()), Eigen::Index(full_ndof())};
+    m.setFromTriplets(entries.begin(), entries.end());
+    return m;
+  }
+
+  Eigen::MatrixXd rest_, full_rest_;
+  Eigen::MatrixXi edges_, faces_;
+  Eigen::SparseMatrix<double> map_;
+  std::vector<int> full_vertex_;
+  onset::Mesh mesh_;
+};
+
+// tolerance, max_iterations and min_distance as Options.
+inline Options options_of(double min_distance, const NarrowPhaseCCD& ccd) {
+  Options o;
+  o.min_separation = min_distance;
+  o.tolerance = ccd.tolerance;
+  o.max_checks = ccd.max_iterations;
+  return o;
+}
+
+struct EdgeEdgeCandidate {
+  int edge0_id, edge1_id;
+};
+struct FaceVertexCandidate {
+  int face_id, vertex_id;
+};
+
+// Pairs whose boxes, inflated by inflation_radius, meet during the motion, less those that can_collide leaves
+// out: data, sorted. The free functions below do not need it.
+class Candidates {
+ public:
+  std::vector<EdgeEdgeCandidate> ee_candidates;
+  std::vector<FaceVertexCandidate> fv_candidates;
+
+  void build(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
+             const Eigen::MatrixXd& vertices_t1, double inflation_radius = 0, const BroadPhase* = nullptr) {
+    clear();
+    Options o;
+    o.min_separation = 2 * inflation_radius;  // each box is widened by half of it
+    const onset::Candidates found = compute_candidates(mesh.onset_mesh(), vertices_t0, vertices_t1, o);
+    if (found.outcome != Outcome::free)
+      throw std::runtime_error(std::string("Candidates::build: ") + to_string(found.outcome));
+    const auto& can = mesh.can_collide;
+    const auto any = [&](const int* first, int firsts, const int* second, int seconds) {
+      for (int i = 0; i < firsts; ++i)
+        for (int j = 0; j < seconds; ++j)
+          if (can(std::size_t(first[i]), std::size_t(second[j]))) return true;
+      return false;
+    };
+    for (const auto& p : found.vertex_face)
+      if (!can || any(&p[0], 1, mesh.onset_mesh().face(p[1]).data(), 3))
+        fv_candidates.push_back({p[1], p[0]});
+    for (const auto& p : found.edge_edge)
+      if (!can || any(mesh.onset_mesh().edge(p[0]).data(), 2, mesh.onset_mesh().edge(p[1]).data(), 2))
+        ee_candidates.push_back({p[0], p[1]});
+  }
+  void build(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices, double inflation_radius = 0,
+             const BroadPhase* broad_phase = nullptr) {
+    build(mesh, vertices, vertices, inflation_radius, broad_phase);
+  }
+
+  std::size_t size() const { return ee_candidates.size() + fv_candidates.size(); }
+  bool empty() const { return size() == 0; }
+  void clear() { ee_candidates.clear(), fv_candidates.clear(); }
+
+  // In [0, 1]: never later than the first contact of these pairs.
+  double compute_collision_free_stepsize(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
+                                         const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
+                                         const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
+    return onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(), vertices_t0, vertices_t1,
+                                                  options_of(min_distance, ccd),
+                                                  1 - ccd.conservative_rescaling)
+        .step;
+  }
+  bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
+                              const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
+                              const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
+    const StepResult r = onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(), vertices_t0,
+                                                                vertices_t1, options_of(min_distance, ccd));
+    return r.outcome == Outcome::free;
+  }
+
+ private:
+  onset::Candidates list() const {
+    onset::Candidates c;
+    for (const FaceVertexCandidate& p : fv_candidates) c.vertex_face.push_back({p.vertex_id, p.face_id});
+    for (const EdgeEdgeCandidate& p : ee_candidates) c.edge_edge.push_back({p.edge0_id, p.edge1_id});
+    return c;
+  }
+};
+
+// A step in [0, 1] from vertices_t0 towards vertices_t1 (surface positions) that is free of contact, and
+// leaves room for the next one (conservative_rescaling). NaN and the like: 0.
+inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
+                                              const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
+                                              const BroadPhase* broad_phase = nullptr,
+                                              const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) {
+  if (mesh.can_collide) {
+    Candidates candidates;
+    candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
+    return candidates.compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1, min_distance, ccd);
+  }
+  const LineSearch search(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0),
+                          options_of(min_distance, ccd), 1 - ccd.conservative_rescaling);
+  return search.largest_step().result.step;
+}
+
+inline bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
+                                   const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
+                                   const BroadPhase* broad_phase = nullptr,
+                                   const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) {
+  if (!mesh.can_collide)
+    return onset::is_step_collision_free(mesh.onset_mesh(), vertices_t0, vertices_t1,
+                                         options_of(min_distance, ccd));
+  Candidates candidates;
+  candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
+  return candidates.is_step_collision_free(mesh, vertices_t0, vertices_t1, min_distance, ccd);
+}
+
+}  // namespace onset::ipc

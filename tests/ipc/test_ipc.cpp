@@ -1,0 +1,153 @@
+// The adapter, used as code written for ipc-toolkit uses it: only the include and the namespace differ.
+#include <onset/ipc.hpp>
+
+#include "tests/catch.hpp"
+#include "tests/oracle/oracle.hpp"
+#include "tests/scenes/meshes.hpp"
+
+namespace ipc = onset::ipc;
+using Eigen::MatrixXd;
+using Eigen::MatrixXi;
+
+namespace {
+
+// A contact form as line searches have it: candidates once a direction, then steps from them.
+class ContactForm {
+ public:
+  ContactForm(const ipc::CollisionMesh& mesh, double dhat) : mesh_(mesh), dhat_(dhat) {}
+  void line_search_begin(const MatrixXd& V0, const MatrixXd& V1) {
+    candidates_.build(mesh_, V0, V1, /*inflation_radius=*/dhat_ / 2, broad_phase_);
+  }
+  double max_step_size(const MatrixXd& V0, const MatrixXd& V1) const {
+    return candidates_.compute_collision_free_stepsize(mesh_, V0, V1, dmin_, tight_inclusion_ccd_);
+  }
+  bool is_step_collision_free(const MatrixXd& V0, const MatrixXd& V1) const {
+    return candidates_.is_step_collision_free(mesh_, V0, V1, dmin_, tight_inclusion_ccd_);
+  }
+  std::size_t size() const { return candidates_.size(); }
+
+ private:
+  const ipc::CollisionMesh& mesh_;
+  ipc::Candidates candidates_;
+  ipc::BroadPhase* broad_phase_ = nullptr;
+  ipc::TightInclusionCCD tight_inclusion_ccd_{1e-6, 10000, 0.8};
+  double dhat_, dmin_ = 0;
+};
+
+// The smallest double that is certainly no earlier than the first contact of any pair that shares no vertex
+// and that may collide.
+double exact_first_contact(const ipc::CollisionMesh& mesh, const MatrixXd& V0, const MatrixXd& V1) {
+  double earliest = INFINITY;
+  const onset::Mesh& m = mesh.onset_mesh();
+  const auto look = [&](onset::PairKind kind, const std::array<int, 4>& v) {
+    const int first = kind == onset::PairKind::vertex_face ? 1 : 2;
+    bool may = !mesh.can_collide;
+    onset::scenes::Query q{kind, {}, {}};
+    for (int i = 0; i < 4; ++i) {
+      for (int j = first; j < 4; ++j) {
+        if (i < first && v[i] == v[j]) return;
+        if (i < first && mesh.can_collide && mesh.can_collide(v[i], v[j])) may = true;
+      }
+      for (int a = 0; a < 3; ++a) q.t0[i][a] = V0(v[i], a), q.t1[i][a] = V1(v[i], a);
+    }
+    if (!may) return;
+    const auto truth = onset::oracle::exact_ccd(q);
+    if (truth.collides) earliest = std::min(earliest, truth.toi_hi);
+  };
+  for (int v = 0; v < m.num_vertices(); ++v)
+    for (int f = 0; f < m.num_faces(); ++f) {
+      const auto c = m.face(f);
+      look(onset::PairKind::vertex_face, {v, c[0], c[1], c[2]});
+    }
+  for (int e = 0; e < m.num_edges(); ++e)
+    for (int g = e + 1; g < m.num_edges(); ++g) {
+      const auto p = m.edge(e), q = m.edge(g);
+      look(onset::PairKind::edge_edge, {p[0], p[1], q[0], q[1]});
+    }
+  return earliest;
+}
+
+}  // namespace
+
+TEST_CASE("steps of the adapter are never later than the exact first contact", "[oracle][property]") {
+  int contacts = 0, filtered_contacts = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    onset::scenes::Random random(seed);
+    const auto soup = onset::scenes::triangle_soup(16, 0.3, seed % 4 == 0 ? 0.02 : 0.3, random);
+    const MatrixXd V0 = soup.x_t0, V1 = soup.x_t1;
+    ipc::CollisionMesh mesh(V0, onset::edges(soup.faces), soup.faces);
+    for (const bool filtered : {false, true}) {
+      if (filtered)
+        mesh.can_collide = [](std::size_t i, std::size_t j) {
+          return i / 12 != j / 12;
+        };  // between four parts
+      const double exact = exact_first_contact(mesh, V0, V1);
+      const double step = ipc::compute_collision_free_stepsize(mesh, V0, V1);
+      ContactForm form(mesh, 1e-3);
+      form.line_search_begin(V0, V1);
+      CAPTURE(seed, filtered, exact, step, form.size());
+      CHECK(step <= exact);
+      CHECK(form.max_step_size(V0, V1) <= exact);
+      const bool free = ipc::is_step_collision_free(mesh, V0, V1);
+      CHECK((!free || exact == INFINITY));
+      CHECK(form.is_step_collision_free(V0, V1) == free);
+      if (exact == INFINITY) CHECK(free);
+      contacts += exact < INFINITY, filtered_contacts += filtered && exact < INFINITY;
+      // A fifth of each gap is kept, also by pairs that pass without contact.
+      if (exact < INFINITY && exact > 0) CHECK(step > 0.4 * exact);
+    }
+  }
+  CHECK((contacts > 6 && filtered_contacts > 2));
+}
+
+TEST_CASE("a surface of a full mesh takes its vertices and gives its dofs back", "[unit]") {
+  // Vertices 1, 3, 4 and 0 of five are on the surface.
+  MatrixXd full(5, 3);
+  full << 0, 0, 0, 1, 0, 0, 9, 9, 9, 0, 1, 0, 0, 0, 1;
+  MatrixXi edges(0, 2), faces(2, 3);
+  faces << 1, 3, 4, 0, 3, 1;
+  const ipc::CollisionMesh mesh = ipc::CollisionMesh::build_from_full_mesh(full, edges, faces);
+  CHECK((mesh.num_vertices() == 4 && mesh.num_edges() == 5 && mesh.full_num_vertices() == 5));
+  CHECK((mesh.to_full_vertex_id(0) == 0 && mesh.to_full_vertex_id(2) == 3 && mesh.to_full_vertex_id(3) == 4));
+  CHECK(mesh.vertices(full) == mesh.rest_positions());
+  CHECK(mesh.displace_vertices(full) == 2 * mesh.rest_positions());
+  CHECK_THROWS_AS(mesh.vertices(mesh.rest_positions()), std::invalid_argument);
+
+  const Eigen::VectorXd gradient = Eigen::VectorXd::LinSpaced(12, 1, 12);
+  const Eigen::VectorXd in_full = mesh.to_full_dof(gradient);
+  REQUIRE(in_full.size() == 15);
+  CHECK((in_full.segment<3>(6).isZero() && in_full.segment<3>(9) == gradient.segment<3>(6)));
+  Eigen::SparseMatrix<double> hessian(12, 12);
+  hessian.insert(11, 0) = 5;
+  CHECK(mesh.to_full_dof(hessian).coeff(14, 0) == 5);
+
+  // The same by a displacement map, of vertices or of dofs.
+  for (const int dim : {1, 3}) {
+    Eigen::SparseMatrix<double> map(4 * dim, 5 * dim);
+    for (int v = 0; v < 4; ++v)
+      for (int a = 0; a < dim; ++a) map.insert(dim * v + a, dim * mesh.to_full_vertex_id(v) + a) = 1;
+    const ipc::CollisionMesh mapped(mesh.rest_positions(), mesh.edges(), mesh.faces(), map);
+    CHECK(mapped.full_ndof() == 15);
+    CHECK(mapped.displace_vertices(full) == mesh.displace_vertices(full));
+    CHECK(mapped.to_full_dof(gradient) == in_full);
+  }
+}
+
+TEST_CASE("listed pairs are checked", "[unit]") {
+  MatrixXi faces(2, 3);
+  faces << 0, 1, 2, 3, 4, 5;
+  const MatrixXd x = MatrixXd::Random(6, 3);
+  const onset::Mesh mesh(x, faces);
+  onset::Candidates c;
+  c.vertex_face = {{3, 0}};
+  c.edge_edge = {{3, 0}};  // in either order
+  CHECK(onset::compute_collision_free_stepsize(mesh, c, x, x).step == 1);
+  c.vertex_face = {{3, 0}, {6, 0}};
+  CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, c, x, x), std::invalid_argument);
+  c.vertex_face = {{0, 0}};
+  CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, c, x, x), std::invalid_argument);
+  c.vertex_face = {};
+  c.edge_edge = {{0, 1}};
+  CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, c, x, x), std::invalid_argument);
+  CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, {}, x, x, {}, 1), std::invalid_argument);
+}
