@@ -8,7 +8,6 @@
 #include "base/parallel.hpp"
 #include "src/checked_options.hpp"
 #include "src/pass.hpp"
-#include "src/rounding.hpp"
 
 namespace onset {
 namespace {
