@@ -1,0 +1,81 @@
+"""The cloth simulator: steps that go on, frames without intersections, the same frames for any number of threads."""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+BINARY = os.environ["ONSET_CLOTH"]
+
+
+def header_and_size(path):
+    data = path.read_bytes()
+    header, body = data.split(b"end_header\n", 1)
+    return header.decode(), len(body)
+
+
+class Cloth(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_app(self, *arguments):
+        return subprocess.run([BINARY, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder,
+                              timeout=500)
+
+    def steps(self, scene, *arguments):
+        done = self.run_app("--scene", scene, "--json", "steps.json", "--check", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        return done.stdout, [json.loads(line) for line in (self.folder / "steps.json").read_text().splitlines()]
+
+    def check_steps(self, text, steps, count):
+        self.assertEqual([s["step"] for s in steps], list(range(1, count + 1)))
+        self.assertIn(f"in 0 of {count + 1} frames", text)
+        for s in steps:
+            self.assertGreater(s["smallest_step"], 0)
+            self.assertLessEqual(s["toi"], 1)
+            self.assertGreater(s["closest"], 0)
+            self.assertGreater(s["iterations"], 0)
+            self.assertLessEqual(s["seconds_collision"], s["seconds"])
+            self.assertLess(s["behind"], 1e-12)  # rounding
+
+    def test_sphere(self):
+        text, steps = self.steps("sphere", "--triangles", 200, "--steps", 12)
+        self.check_steps(text, steps, 12)
+        self.assertGreater(steps[-1]["contacts"], 0)
+
+    def test_pile(self):
+        text, steps = self.steps("pile", "--triangles", 200, "--steps", 20)
+        self.check_steps(text, steps, 20)
+        self.assertGreater(steps[-1]["contacts"], 0)
+        self.assertLess(min(s["toi"] for s in steps), 1)  # the filter had something to do
+
+    def test_twist(self):
+        text, steps = self.steps("twist", "--triangles", 200, "--steps", 10)
+        self.check_steps(text, steps, 10)
+
+    def test_frames_are_the_same_for_any_number_of_threads(self):
+        for threads in (1, 2):
+            done = self.run_app("--scene", "sphere", "--triangles", 200, "--steps", 8, "--threads", threads, "--out",
+                                f"out{threads}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        names = sorted(p.name for p in (self.folder / "out1").iterdir())
+        self.assertEqual(names, [f"frame_{i:04d}.ply" for i in range(9)])
+        for name in names:
+            self.assertEqual((self.folder / "out1" / name).read_bytes(), (self.folder / "out2" / name).read_bytes())
+        header, size = header_and_size(self.folder / "out1" / names[-1])
+        counts = {line.split()[1]: int(line.split()[2]) for line in header.splitlines() if line.startswith("element")}
+        self.assertEqual(size, 24 * counts["vertex"] + 13 * counts["face"])
+
+    def test_bad_usage(self):
+        self.assertNotEqual(self.run_app("--scene", "none").returncode, 0)
+        done = self.run_app("--steps", 1, "--triangles", 100, "--out", "/dev/null/frames")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

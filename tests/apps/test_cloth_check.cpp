@@ -1,0 +1,40 @@
+// The exact check of the cloth simulator finds what it is there to find.
+#include "apps/cloth/intersections.hpp"
+#include "tests/catch.hpp"
+
+namespace {
+
+using Faces = std::vector<std::array<int, 3>>;
+
+cloth::Vector points(std::vector<double> x) {
+  return Eigen::Map<cloth::Vector>(x.data(), Eigen::Index(x.size()));
+}
+
+bool meet(const std::vector<double>& x, const Faces& faces) {
+  return cloth::intersects_itself(points(x), faces);
+}
+
+}  // namespace
+
+TEST_CASE("faces without a common vertex", "[unit]") {
+  const Faces two{{0, 1, 2}, {3, 4, 5}};
+  const auto needle = [](double tip) {
+    return std::vector<double>{0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, tip, 1.5, 1, 3, 1, 1.5, 3};
+  };
+  CHECK(meet(needle(-0.5), two));
+  CHECK(meet(needle(0), two));  // touching
+  CHECK_FALSE(meet(needle(1e-300), two));
+}
+
+TEST_CASE("faces with a common vertex", "[unit]") {
+  const Faces fan{{0, 1, 2}, {0, 3, 4}};
+  CHECK(meet({0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1}, fan));
+  CHECK_FALSE(meet({0, 0, 0, 4, 0, 0, 0, 4, 0, -1, -1, -1, -1, -1, 1}, fan));
+}
+
+TEST_CASE("faces with a common edge", "[unit]") {
+  const Faces hinge{{0, 1, 2}, {1, 0, 3}};
+  CHECK(meet({0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 3, 0}, hinge));  // folded flat
+  CHECK_FALSE(meet({0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 3, 1e-9}, hinge));
+  CHECK_FALSE(meet({0, 0, 0, 4, 0, 0, 0, 4, 0, 1, -3, 0}, hinge));
+}
