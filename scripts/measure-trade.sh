@@ -25,6 +25,7 @@ say() { echo "$(date +%T) $*" >&2; }
 
 say "queries with exact truth"
 rm -rf "$out" && mkdir -p "$out"
+cut -d ' ' -f 1 /proc/loadavg >"$out/load"
 "$build/tests/accuracy/onset_recorded_queries" "$ONSET_DATA" "$out" "$sample"
 "$build/tests/accuracy/onset_stability_queries" "$out/stability" "$count"
 

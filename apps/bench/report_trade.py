@@ -89,6 +89,7 @@ class Measured:
             name: [read(folder / f"baselines-{name}.json"), read(folder / f"ipctk-{name}.json")]
             for name in (*SETS, "stability")
         }
+        self.load = (folder / "load").read_text().strip()
         self.separations = {(name, d): read(folder / f"separation-{name}-{d}.json") for name in SETS for d in SEPARATIONS}
 
     def group(self, name, kind):
@@ -163,8 +164,9 @@ def missed_line(measured):
 
 
 def stability_table(measured):
-    head = ["finder", *(f"{what}: FN / zero / FP / late / cut" for what in ("scale", "offset")), "of queries"]
     series, rows = measured.stability(), []
+    queries = {what: sum(tally["queries"] for _, tally in next(iter(series[what].values()))) for what in series}
+    head = ["finder", *(f"{what}, {n} queries: FN / zero / FP / late / cut" for what, n in queries.items())]
     for finder in series["scale"]:
         cells = []
         for what in ("scale", "offset"):
@@ -172,13 +174,13 @@ def stability_table(measured):
             for _, tally in series[what][finder]:
                 add(total, tally)
             cells.append(" / ".join(str(total[k]) for k in ("false_negatives", "zero", "false_positives", "late", "cut")))
-        rows.append([finder, *cells, total["queries"]])
+        rows.append([finder, *cells])
     return table(head, rows)
 
 
 def machine_text(measured):
     cpp, peer = measured.asked["handmade"]
-    return (f"Machine: {cpp['machine']}. Root finders: boxes narrower than {cpp['width']:g} accepted, at most {cpp['boxes']} boxes a "
+    return (f"Machine: {cpp['machine']}, load average {measured.load} before. Root finders: boxes narrower than {cpp['width']:g} accepted, at most {cpp['boxes']} boxes a "
             f"query. ipctk {peer['ipctk']}: at most {peer['checks']} iterations, {peer['limit']:g} s a query; its times hold the call "
             f"from Python, {peer['call_us']:.1f} us for one that does nothing.")
 
