@@ -4,7 +4,7 @@
     ask_ipctk.py [--every N] [--checks N] [--limit SECONDS] FOLDER ...
 
 Each FOLDER holds data.csv and toi.csv, as onset_recorded_queries and its like write them; of each every N-th query. Times
-include the call from Python; what a call costs that does nothing (a test of two boxes) is given as call_us. --checks: most
+are CPU time and include the call from Python; what a call costs that does nothing (a test of two boxes) is given as call_us. --checks: most
 iterations of TightInclusionCCD and AdditiveCCD. A query that is not answered within the limit is cut: counted as one,
 and as taking the limit. The wheel has no inexact algorithm in three dimensions.
 """
