@@ -10,10 +10,12 @@ counted as such. Prints Markdown.
 
 import argparse
 import csv
+import ctypes
 import json
 import math
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -129,6 +131,7 @@ def serve_ipctk(name, options, pipe):
     import ipctk
     import numpy as np
 
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG: a query may outlive the script by hours, and grow
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # its root finder logs to stdout
     ipctk.set_num_threads(1)
     ipctk.set_logger_level(ipctk.LoggerLevel.error)

@@ -95,6 +95,20 @@ class Scenes(AppTest):
                 self.assertEqual(self.csv("active-set", *frames(name), "--threads", "2"), first)
 
 
+class Trade(AppTest):
+    def test_no_setting_misses(self):
+        """Every setting, with the truth in the form of the data."""
+        name, folder = "cloth-funnel", DATA / "scenes" / "cloth-funnel"
+        files = [f"{folder}/boxes/227{kind}.json,{folder}/mma_bool/227{kind}_mma_bool.json" for kind in ["vf", "ee"]]
+        result = self.json("trade", *frames(name), "--truth", *files, "--repeats", "1", "--seconds", "0")
+        collide = sum(sum(listed.values()) for listed in truth(name).values())
+        self.assertGreater(len(result["settings"]), 30)
+        for s in result["settings"]:
+            self.assertEqual(s["false_negatives"], 0, s)
+            if s["false_positives"] is not None:
+                self.assertEqual(s["positives"], collide + s["false_positives"])
+
+
 class Queries(AppTest):
     def ask(self, files, *options):
         total = self.json("queries", *files, *options)["total"]
