@@ -1,10 +1,11 @@
 #include "base/motion.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "base/fixed_cache.hpp"
 #include "base/parallel.hpp"
@@ -112,6 +113,50 @@ void find_bad_vertex(Motion& m) {
 
 namespace {
 
+// By their bits: zeros of different sign are told apart, so that a reused row is what was passed in.
+bool same_bits(const double* a, const double* b, std::size_t count) {
+  return std::memcmp(a, b, count * sizeof(double)) == 0;
+}
+
+}  // namespace
+
+bool FixedMotion::stands_at(const std::vector<int>& ids, const Positions& p) const {
+  const std::size_t count = ids.size();
+  const double* first = p.data() + ids.front() * p.row_stride();
+  if (contiguous && p.row_stride() == 3 && p.col_stride() == 1) return same_bits(first, x.data(), 3 * count);
+  if (contiguous && p.row_stride() == 1) {
+    for (std::size_t a = 0; a < 3; ++a)
+      if (!same_bits(first + std::ptrdiff_t(a) * p.col_stride(), column[a].data(), count)) return false;
+    return true;
+  }
+  bool all = true;
+  for (std::size_t k = 0; k < count; ++k)
+    for (int a = 0; a < 3; ++a) {
+      const double here = p(ids[k], a);
+      all &= same_bits(&here, &x[3 * k + std::size_t(a)], 1);
+    }
+  return all;
+}
+
+AlignedArray<double> FixedMotion::take(const std::array<int, 3>& axes) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (Rows& rows : kept_)
+    if (rows.x.size() > 0 && rows.axes == axes) return std::exchange(rows.x, AlignedArray<double>());
+  return {};
+}
+
+void FixedMotion::give_back(const std::array<int, 3>& axes, AlignedArray<double> x) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (Rows& rows : kept_)
+    if (rows.x.size() == 0) {
+      rows = {axes, std::move(x)};
+      return;
+    }
+  kept_[0] = {axes, std::move(x)};
+}
+
+namespace {
+
 // Largest swept extent, per axis, over elements of N vertices: those listed, or all; rounded up.
 template <std::size_t N>
 std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& elements,
@@ -142,10 +187,12 @@ std::shared_ptr<const FixedMotion> make_fixed(const MeshData& mesh, const Motion
     double x[3];
     for (int a = 0; a < 3; ++a) x[m.axes[a]] = m.t0(v)[a];
     for (int a = 0; a < 3; ++a) {
-      fixed->x.push_back(x[a]);
+      fixed->x.push_back(x[a]), fixed->column[a].push_back(x[a]);
       fixed->lo[a] = std::min(fixed->lo[a], x[a]), fixed->hi[a] = std::max(fixed->hi[a], x[a]);
     }
   }
+  const std::vector<int>& ids = filter.static_ids;
+  fixed->contiguous = ids.back() - ids.front() + 1 == int(ids.size());
   const auto edge = largest_swept(mesh.edges, &filter.fixed[std::size_t(Primitive::edge)], m);
   const auto face = largest_swept(mesh.faces, &filter.fixed[std::size_t(Primitive::face)], m);
   for (int a = 0; a < 3; ++a)
@@ -179,26 +226,22 @@ Motion motion_around(const MeshData& mesh, std::shared_ptr<const FixedMotion> fi
   const PrimitiveFilter& filter = *mesh.filter;
   Motion m;
   if (!axes_around(filter, *fixed, x_t0, x_t1, m.axes)) return {};
-  m.x = AlignedArray<double>(std::size_t(mesh.num_vertices) * kMotionStride);
-  const auto fill = [&](int v) {
-    double* x = m.x.data() + std::size_t(v) * kMotionStride;
-    for (int a = 0; a < 3; ++a) x[a] = x_t0(v, m.axes[a]), x[4 + a] = x_t1(v, m.axes[a]);
-    x[3] = x[7] = 0;
-    return x;
-  };
-  for (int v : filter.free_ids) fill(v);
-  std::atomic<bool> same{true};
-  parallel_ranges(filter.static_ids.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    bool mine = true;
-    for (std::size_t k = first; k < last; ++k) {
-      const double *x = fill(filter.static_ids[k]), *y = fixed->x.data() + 3 * k;
-      for (int a = 0; a < 3; ++a) mine &= (x[a] == y[m.axes[a]]) & (x[4 + a] == y[m.axes[a]]);
+  if (!fixed->stands_at(filter.static_ids, x_t0) || !fixed->stands_at(filter.static_ids, x_t1)) return {};
+  m.x = fixed->take(m.axes);
+  const bool spare = m.x.size() > 0;
+  if (!spare) m.x = AlignedArray<double>(std::size_t(mesh.num_vertices) * kMotionStride);
+  const auto fill = [&](const std::vector<int>& ids) {
+    for (int v : ids) {
+      double* x = m.x.data() + std::size_t(v) * kMotionStride;
+      for (int a = 0; a < 3; ++a) x[a] = x_t0(v, m.axes[a]), x[4 + a] = x_t1(v, m.axes[a]);
+      x[3] = x[7] = 0;
     }
-    if (!mine) same = false;
-  });
-  if (!same) return {};
+  };
+  fill(filter.free_ids);
+  if (!spare) fill(filter.static_ids);
   m.num_vertices = mesh.num_vertices;
   m.fixed = std::move(fixed);
+  m.rows_last = true;
   return m;
 }
 
@@ -228,7 +271,7 @@ Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions&
     for (int a = 0; a < 3; ++a) {
       if (m.t0(v)[a] != m.t1(v)[a])
         throw std::invalid_argument("vertex " + std::to_string(v) + " is static, but x_t0 and x_t1 differ");
-      same = same && m.t0(v)[a] == fixed->x[3 * k + std::size_t(m.axes[a])];
+      same = same && same_bits(&m.t0(v)[a], &fixed->x[3 * k + std::size_t(m.axes[a])], 1);
     }
   }
   if (!cached) return m;

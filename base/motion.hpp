@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "base/aligned.hpp"
@@ -18,11 +19,31 @@ inline constexpr double kMaxCoordinate = 0x1p1020;  // beyond this a difference 
 // One cache line a vertex: x y z 0 at t = 0, x y z 0 at t = 1.
 inline constexpr int kMotionStride = 8;
 
-// What the steps have in common as long as static vertices stay where they are; immutable.
-struct FixedMotion {
-  std::vector<double> x;                              // x y z of each static vertex, in the order of ids
-  std::array<double, 3> lo{}, hi{};                   // of these, per column
+// What the steps have in common as long as static vertices stay where they are: immutable but for spare
+// memory, safe to share.
+class FixedMotion {
+ public:
+  std::vector<double> x;                               // x y z of each static vertex, in the order of ids
+  std::array<std::vector<double>, 3> column;           // the same by column
+  bool contiguous = true;                              // the ids are
+  std::array<double, 3> lo{}, hi{};                    // per column
   std::array<double, 3> widest_edge{}, widest_face{};  // of the static primitives that take part, rounded up
+
+  // Whether static vertices are there, at one end of a motion.
+  bool stands_at(const std::vector<int>& ids, const Positions& positions) const;
+
+  // Motion::x of an earlier motion with these axes, whose rows of static vertices still hold; empty if none
+  // is kept. At most two are.
+  AlignedArray<double> take(const std::array<int, 3>& axes) const;
+  void give_back(const std::array<int, 3>& axes, AlignedArray<double> rows) const;
+
+ private:
+  struct Rows {
+    std::array<int, 3> axes;
+    AlignedArray<double> x;
+  };
+  mutable std::mutex mutex_;
+  mutable std::array<Rows, 2> kept_;
 };
 
 // The three axes are stored in an order that depends on the motion only up to a permutation of axes (see
@@ -33,7 +54,9 @@ struct Motion {
   std::array<int, 3> axes{0, 1, 2};  // axes[i]: the caller's column stored as axis i
   Outcome status = Outcome::free;    // free, non_finite or out_of_range
   int bad_vertex = -1;
-  std::shared_ptr<const FixedMotion> fixed;  // null where no static primitive takes part, or status is not free
+  bool rows_last = false;  // rows of static vertices are those of `fixed`, bit for bit, at both ends
+  std::shared_ptr<const FixedMotion>
+      fixed;  // null where no static primitive takes part, or status is not free
 
   const double* t0(int v) const { return x.data() + std::size_t(v) * kMotionStride; }
   const double* t1(int v) const { return x.data() + std::size_t(v) * kMotionStride + 4; }

@@ -49,6 +49,8 @@ void make_keys(const MeshData& m, PrimitiveFilter& filter) {
         if (!vertex_named.empty() && vertex_named[v]) key.flags |= kExcludedFlag;
       }
       keys[id] = key;
+      filter.compares_keys =
+          filter.compares_keys || key.body < 0 || (key.flags & kExcludedFlag) != 0 || !m.group.empty();
     }
   }
 }
@@ -121,13 +123,6 @@ void finish_mesh(MeshData& mesh) {
     (mesh.fixed[v] ? filter->static_ids : filter->free_ids).push_back(int(v));
   mesh.fixed_cache = filter->has_fixed() ? std::make_shared<FixedCache>() : nullptr;
   mesh.filter = std::move(filter);
-}
-
-bool is_fixed(const MeshData& mesh, Primitive kind, int id) {
-  if (mesh.fixed.empty()) return false;
-  for (int v : primitive_vertices(mesh, kind, id))
-    if (!mesh.fixed[std::size_t(v)]) return false;
-  return true;
 }
 
 bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b) {

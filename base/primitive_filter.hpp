@@ -31,6 +31,9 @@ struct PrimitiveFilter {
   // All vertices, by whether they are static; empty where none is.
   std::vector<int> free_ids, static_ids;
 
+  // Whether anything but static vertices keeps primitives apart.
+  bool compares_keys = false;
+
   bool keeps_apart() const { return !keys[0].empty() || !keys[1].empty() || !keys[2].empty(); }
   bool has_fixed() const { return !fixed_vertices.empty(); }
 };
@@ -53,6 +56,11 @@ bool excluded(const MeshData& mesh, PairKind kind, int a, int b);
 bool may_meet(const MeshData& mesh, PairKind kind, int a, int b);
 
 // Whether all vertices of a primitive are static.
-bool is_fixed(const MeshData& mesh, Primitive kind, int id);
+inline bool is_fixed(const MeshData& mesh, Primitive kind, int id) {
+  if (mesh.fixed.empty()) return false;
+  for (int v : primitive_vertices(mesh, kind, id))
+    if (!mesh.fixed[std::size_t(v)]) return false;
+  return true;
+}
 
 }  // namespace onset

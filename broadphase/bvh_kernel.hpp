@@ -30,7 +30,7 @@ struct TreeView {
   int levels;
   const int* ids;       // 8 a leaf block
   const int* vertices;  // ranks or ids; 8 a vertex of the primitive a leaf block
-  // Null unless pairs are kept apart (base/primitive_filter.hpp). bodies: eight a block, PrimitiveKey::body of
+  // Null unless keys are compared (base/primitive_filter.hpp). bodies: eight a block, PrimitiveKey::body of
   // what all of a lane has in common, 0 where it has not. keys: three rows of 8 a leaf block: flags, group, mask.
   const int* bodies[kMaxLevels];
   const int* keys;
@@ -50,7 +50,7 @@ struct TraverseArguments {
   bool motion;
   bool edges;  // edges against edges, smaller id first; else vertices against faces
   bool self;   // one tree of edges: each unordered pair once
-  bool keyed;  // both trees have bodies and keys, which are tested; always so for two trees of edges
+  bool keyed;  // both trees have bodies and keys, which are tested
   int rounded_axes;         // bit i: equal floats on axis i need not be equal doubles
   std::size_t first, last;  // blocks at level 1 of `query`: 64 primitives each
   // Decides pairs that only touch in float.

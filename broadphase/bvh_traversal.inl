@@ -227,10 +227,11 @@ class Traversal {
 
 template <bool kMotion>
 void traverse_boxes(const TraverseArguments& a) {
-  if (a.edges && !a.self)
-    Traversal<kMotion, true, false, true>(a).run();
-  else if (a.edges)
+  if (a.edges && a.self)
     a.keyed ? Traversal<kMotion, true, true, true>(a).run() : Traversal<kMotion, true, true, false>(a).run();
+  else if (a.edges)
+    a.keyed ? Traversal<kMotion, true, false, true>(a).run()
+            : Traversal<kMotion, true, false, false>(a).run();
   else
     a.keyed ? Traversal<kMotion, false, false, true>(a).run()
             : Traversal<kMotion, false, false, false>(a).run();

@@ -43,7 +43,8 @@ double widest(const BroadPhaseInput& input, Primitive kind, int id, double infla
 }  // namespace
 
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id) {
-  return motion_box(input, kind, id, part_inflation(input, is_fixed(input.mesh, kind, id)));
+  const bool alike = part_inflation(input, true) == input.inflation;
+  return motion_box(input, kind, id, part_inflation(input, !alike && is_fixed(input.mesh, kind, id)));
 }
 
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, double inflation) {

@@ -1,6 +1,7 @@
 #include "src/scene.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/dispatch.hpp"
 #include "base/parallel.hpp"
@@ -16,6 +17,10 @@ BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, co
   const double inflation =
       fixed ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
   return {mesh, motion, inflation, horizon, test, options.kernel, half};
+}
+
+Scene::~Scene() {
+  if (motion.rows_last) motion.fixed->give_back(motion.axes, std::move(motion.x));
 }
 
 Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,

@@ -26,6 +26,7 @@ struct Scene {
   // apart, positions rounded to doubles included.
   Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, BoxTest test,
         Stats& stats, Budget& budget, double d_hat = -1);
+  ~Scene();
 };
 
 }  // namespace onset

@@ -1,6 +1,6 @@
 // What a static obstacle adds to a cloth's step: out of reach and just below the cloth, static or not
 // declared so.
-//   onset_static_obstacle [repeats]
+//   onset_static_obstacle [repeats [only the case whose name begins so]]
 // Prints CPU milliseconds a call, one thread, median over repeats, the obstacle's first call left out.
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <onset/onset.hpp>
+#include <string>
 #include <vector>
 
 namespace {
@@ -104,7 +105,7 @@ int main(int argc, char** argv) {
   const Sheet cloth = sheet(kCloth, 0.5, 0, 0.02);
   const int vertices = int(cloth.x_t0.rows());
   const Sheet far = joined(cloth, sheet(kObstacle, 1, -1, 0.1)),
-              near = joined(cloth, sheet(kObstacle, 1, -0.125, 0.1));
+              near = joined(cloth, sheet(kObstacle, 1, -0.085, 0.1));
   std::vector<Case> cases;
   cases.reserve(5);
   cases.emplace_back("cloth alone", cloth, -1);
@@ -112,6 +113,10 @@ int main(int argc, char** argv) {
   cases.emplace_back("not declared static, out of reach", far, -1);
   cases.emplace_back("static, close", near, vertices);
   cases.emplace_back("not declared static, close", near, -1);
+  if (argc > 2) {
+    const auto other = [&](const Case& c) { return std::string(c.name).rfind(argv[2], 0) != 0; };
+    cases.erase(std::remove_if(cases.begin(), cases.end(), other), cases.end());
+  }
   for (int round = 0; round <= repeats; ++round)
     for (Case& c : cases) c.run(vertices, round);
   std::printf("%-34s %10s %6s %14s %6s %11s %12s\n", "cloth of 5,000, obstacle of 49,928", "step ms", "ratio",

@@ -43,6 +43,10 @@ class Positions {
   double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const {
     return data_[row * row_stride_ + col * col_stride_];
   }
+  // Where (0, 0) is, and how many doubles on the next row and column are.
+  const double* data() const { return data_; }
+  std::ptrdiff_t row_stride() const { return row_stride_; }
+  std::ptrdiff_t col_stride() const { return col_stride_; }
 
  private:
   void assign(const double* data, std::ptrdiff_t rows, std::ptrdiff_t cols, std::ptrdiff_t row_stride,
