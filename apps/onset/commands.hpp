@@ -16,5 +16,6 @@ void add_replay(CLI::App& app, Run& run);
 void add_demo(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
 void add_trade(CLI::App& app, Run& run);
+void add_plan(CLI::App& app, Run& run);
 
 }  // namespace app

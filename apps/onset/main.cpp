@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   app::add_step(app, run);
   app::add_active_set(app, run);
   app::add_candidates(app, run);
+  app::add_plan(app, run);
   app::add_queries(app, run);
   app::add_replay(app, run);
   app::add_demo(app, run);

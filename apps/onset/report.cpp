@@ -15,6 +15,34 @@ Json to_json(const onset::Pair& pair) {
   return {{"kind", kind_name(pair.kind)}, {"a", pair.a}, {"b", pair.b}, {"vertices", pair.vertices}};
 }
 
+namespace {
+
+Json kind_json(const onset::KindPlan& p) {
+  return {{"needed", p.may_meet() > 0},
+          {"pairs", p.pairs},
+          {"may_meet", p.may_meet()},
+          {"left_out",
+           {{"masked", p.masked},
+            {"static", p.fixed},
+            {"same_body", p.same_body},
+            {"adjacent", p.adjacent},
+            {"excluded", p.excluded}}}};
+}
+
+Json primitive_json(const onset::PrimitivePlan& p) {
+  return {{"moving", p.moving}, {"static", p.fixed}, {"dropped", p.dropped}};
+}
+
+}  // namespace
+
+Json to_json(const onset::PairPlan& p) {
+  return {{"vf", kind_json(p.vertex_face)},
+          {"ee", kind_json(p.edge_edge)},
+          {"vertices", primitive_json(p.vertices)},
+          {"edges", primitive_json(p.edges)},
+          {"faces", primitive_json(p.faces)}};
+}
+
 Json to_json(const onset::Stats& s) {
   return {{"swept", to_json(s.swept)},
           {"candidates", to_json(s.candidates)},
@@ -31,6 +59,8 @@ Json to_json(const onset::Stats& s) {
           {"achieved_tolerance", s.achieved_tolerance},
           {"extent", s.extent},
           {"error_bound", s.error_bound},
+          {"plan", to_json(s.plan)},
+          {"made_fixed_boxes", s.made_fixed_boxes},
           {"threads", s.threads},
           {"kernel", s.kernel},
           {"broad_phase", s.broad_phase}};

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "arguments.hpp"
+#include "bodies.hpp"
 #include "report.hpp"
 
 namespace app {
@@ -10,7 +11,7 @@ namespace app {
 CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, const std::string& help,
                             const std::string& csv_columns, SceneWork work,
                             std::shared_ptr<Arguments>* arguments) {
-  struct Inputs : Arguments {
+  struct Inputs : Arguments, BodyArguments {
     std::string a, b;
   };
   const auto inputs = std::make_shared<Inputs>();
@@ -20,10 +21,12 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
   command->add_option("B", inputs->b, "The same mesh at its end: the same faces in the same order")
       ->required();
   add_common_options(*command, *inputs, csv_columns);
+  add_body_options(*command, *inputs);
   command->callback([&run, inputs, work = std::move(work)] {
     run = [inputs, work] {
       const onset::Options options = to_options(*inputs);
-      const Scene scene = read_scene(inputs->a, inputs->b);
+      Scene scene = read_scene(inputs->a, inputs->b);
+      set_bodies(*inputs, scene.mesh);
       Outputs outputs(*inputs);
       work(scene, options, outputs);
     };

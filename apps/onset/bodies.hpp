@@ -1,0 +1,22 @@
+// The options that say what a scene is made of.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <onset/mesh.hpp>
+#include <string>
+#include <vector>
+
+namespace app {
+
+struct BodyArguments {
+  std::string bodies = "one";
+  std::vector<int> fixed, rigid;
+  bool all_rigid = false;
+};
+
+void add_body_options(CLI::App& command, BodyArguments& arguments);
+
+// Throws UsageError for a body that the mesh has not.
+void set_bodies(const BodyArguments& arguments, onset::Mesh& mesh);
+
+}  // namespace app
