@@ -121,6 +121,7 @@ inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResul
   r.unit = at(s.unit);
   r.checks = static_cast<long long>(at(s.checks));
   r.verdict = verdict;
+  r.touched_by = 2;
 }
 
 // The verdict of each lane after a check, or -1 to go on.

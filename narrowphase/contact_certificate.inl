@@ -37,9 +37,12 @@ inline void set_relative(const KernelPairs& pairs, const int* rows, RelativeMoti
       largest = max(max(abs(r.q[end][i]), abs(r.a[end][i])), max(abs(r.b[end][i]), largest));
     }
   const D4 scale = inverse_power_of_two(largest);
-  for (auto* x : {&r.q, &r.a, &r.b})
-    for (auto& end : *x)
-      for (D4& component : end) component = component * scale;
+  for (int end = 0; end < 2; ++end)
+    for (int i = 0; i < 3; ++i) {
+      r.q[end][i] = r.q[end][i] * scale;
+      r.a[end][i] = r.a[end][i] * scale;
+      r.b[end][i] = r.b[end][i] * scale;
+    }
 }
 
 template <class V>

@@ -120,18 +120,20 @@ void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k
 
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial a, IntegerPolynomial b) {
   while (!b.is_zero()) {
-    IntegerPolynomial r = a.degree() < b.degree() ? primitive(a) : primitive(pseudo_divide(a, b).remainder);
+    // Degrees are at most 3: coefficients without their common factors grow eightfold in length, which is
+    // cheaper.
+    IntegerPolynomial r = a.degree() < b.degree() ? a : pseudo_divide(a, b).remainder;
     a = std::move(b);
     b = std::move(r);
   }
-  return primitive(a);
+  return a.degree() > 0 ? primitive(a) : a;
 }
 
 IntegerPolynomial square_free(const IntegerPolynomial& p) {
   std::vector<Integer> derivative;
   for (int i = 1; i <= p.degree(); ++i) derivative.push_back(p[i] * i);
   const IntegerPolynomial common = greatest_common_divisor(p, IntegerPolynomial(std::move(derivative)));
-  return primitive(pseudo_divide(p, common).quotient);
+  return common.degree() < 1 ? p : primitive(pseudo_divide(p, common).quotient);
 }
 
 int sign_at(const IntegerPolynomial& p, const Integer& numerator, unsigned exponent) {
@@ -152,16 +154,19 @@ std::vector<IsolatedRoot> isolated_roots(const IntegerPolynomial& f) {
   return roots;
 }
 
-int sign_at(const IntegerPolynomial& g, IsolatedRoot& root) {
-  if (root.exact) return sign_at(g, root.k, root.depth);
-  if (g.degree() < 1) return g.is_zero() ? 0 : g[0].sign();
-  // The only root that the common divisor can have in the interval is this one, and it is simple.
-  const IntegerPolynomial common = greatest_common_divisor(root.p, g);
-  if (common.degree() > 0 && sign_at(common, root.k, root.depth) != sign_at(common, root.k + 1, root.depth))
-    return 0;
+namespace {
+
+bool has_one_sign(const Coefficients& b) {
+  return sign_changes(b) == 0 && !b.front().is_zero() && !b.back().is_zero();
+}
+
+// Halves the root's interval until g has one sign in it, at most `rounds` times (< 0: as long as it takes);
+// g's sign, or 0.
+int narrow_to_one_sign(const IntegerPolynomial& g, IsolatedRoot& root, int rounds) {
   Coefficients p = bernstein(root.p, root.k, root.depth), left_p, right_p;
   Coefficients b = bernstein(g, root.k, root.depth), left, right;
-  while (sign_changes(b) != 0 || b.front().is_zero() || b.back().is_zero()) {
+  for (; !has_one_sign(b); --rounds) {
+    if (rounds == 0) return 0;
     halve(p, left_p, right_p);
     halve(b, left, right);
     const int middle = right_p.front().sign();
@@ -176,6 +181,20 @@ int sign_at(const IntegerPolynomial& g, IsolatedRoot& root) {
     ++root.depth;
   }
   return b.front().sign();
+}
+
+}  // namespace
+
+int sign_at(const IntegerPolynomial& g, IsolatedRoot& root) {
+  if (root.exact) return sign_at(g, root.k, root.depth);
+  if (g.degree() < 1) return g.is_zero() ? 0 : g[0].sign();
+  constexpr int kCheap = 6;
+  if (const int s = narrow_to_one_sign(g, root, kCheap); s != 0 || root.exact) return s;
+  // The only root that the common divisor can have in the interval is this one, and it is simple.
+  const IntegerPolynomial common = greatest_common_divisor(root.p, g);
+  if (common.degree() > 0 && sign_at(common, root.k, root.depth) != sign_at(common, root.k + 1, root.depth))
+    return 0;
+  return narrow_to_one_sign(g, root, -1);
 }
 
 }  // namespace onset

@@ -39,6 +39,7 @@ struct KernelResult {
   double unit;
   long long checks;
   Verdict verdict;
+  double touched_by;  // the pair certainly touches by this time; 2: not known
 };
 
 // Where advancement goes on with a pair that stalled.
@@ -60,6 +61,9 @@ struct KernelTable {
                               KernelResult*);
   void (*advance_edge_edge)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
                             KernelResult*);
+  // Sets touched_by of those of results[0..count), as advance left them, that are in contact; separation 0.
+  void (*certify_vertex_face)(const KernelPairs&, const int* subset, int count, KernelResult* results);
+  void (*certify_edge_edge)(const KernelPairs&, const int* subset, int count, KernelResult* results);
   // The direction that separates pair `row` best at time t; returns a scaled upper bound of the distance then.
   double (*look_vertex_face)(const KernelPairs&, int row, double t, double (&w)[3]);
   double (*look_edge_edge)(const KernelPairs&, int row, double t, double (&w)[3]);

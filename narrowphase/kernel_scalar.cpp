@@ -9,6 +9,8 @@ const KernelTable& scalar_kernels() {
                                  scalar::cull_edge_edge,
                                  scalar::advance_vertex_face,
                                  scalar::advance_edge_edge,
+                                 scalar::certify_vertex_face,
+                                 scalar::certify_edge_edge,
                                  scalar::look_vertex_face,
                                  scalar::look_edge_edge};
   return table;

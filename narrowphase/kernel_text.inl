@@ -20,6 +20,8 @@ namespace {
 
 #include "narrowphase/cull.inl"
 
+#include "narrowphase/contact_certificate.inl"
+
 int cull_vertex_face(const KernelPairs& pairs, int* survivors) { return cull_all<3>(pairs, survivors); }
 int cull_edge_edge(const KernelPairs& pairs, int* survivors) { return cull_all<4>(pairs, survivors); }
 void advance_vertex_face(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
@@ -29,6 +31,12 @@ void advance_vertex_face(const KernelPairs& pairs, const int* subset, int count,
 void advance_edge_edge(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
                        KernelResult* results) {
   advance_all<4>(pairs, subset, count, resume, results);
+}
+void certify_vertex_face(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+  certify_all<3>(pairs, subset, count, results);
+}
+void certify_edge_edge(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+  certify_all<4>(pairs, subset, count, results);
 }
 double look_vertex_face(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<3>(pairs, row, t, w); }
 double look_edge_edge(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<4>(pairs, row, t, w); }

@@ -143,6 +143,11 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   const auto advance =
       kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
   advance(input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
+  if (settles()) {
+    const auto certify =
+        kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
+    certify(input, scratch.survivors.data(), survivors, scratch.results.data());
+  }
   scratch.stats.candidates += std::int64_t(count);
   scratch.stats.after_culls += survivors;
   for (int i = 0; i < survivors; ++i) {

@@ -28,6 +28,7 @@ ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double
     if (!complete) return {Answer::unknown, {}};
     return {exactly_touches(pair, from) ? Answer::yes : Answer::no, {from, INFINITY}};
   }
+  if (found.touched_by <= 1 && !in_.exact_times) return {Answer::yes, {found.t, found.touched_by}};
   const ExactAnswer r = exact_answer(pair, complete ? Effort::complete : Effort::quick);
   // A start that is apart needs its own toi > 0.
   const bool wants_time = in_.exact_times || found.verdict != Verdict::contact;
