@@ -67,73 +67,34 @@ IntegerPoints<C> on_grid(const double* const (&points)[4], int last) {
   return r;
 }
 
+// Of the cubic, where coordinates of q, a, b are below 2^(bits + 1).
+int cubic_bits_for(int bits) { return 3 * (bits + 1) + 5; }
+
 // How deep a search may go where the coordinates of q, a, b are below 2^(bits + 1) and the cubic has `width`
 // bits; < 0: it does not fit.
 int depth_for(int bits, int width) {
-  const int room = width - 2 - (3 * (bits + 1) + 5);
+  const int room = width - 2 - cubic_bits_for(bits);
   return room < 0 ? -1 : std::min(room / 3, kDeepest);
-}
-
-// The sign of f at a time, in `width` bits: f (2^e)^3 is homogeneous in x and y = 2^e - x, each term below
-// 2^(3 (bits + 1) + 5 + 3 e + 2).
-template <int Limbs, class T>
-struct CubicSign {
-  const T (&f)[4];
-  int bits;
-  bool fits = true;
-
-  int at(double t) {
-    const Dyadic d = to_dyadic(t);
-    if (3 * (bits + 1) + 10 + 3 * d.exponent > 64 * Limbs) {
-      fits = false;
-      return 0;
-    }
-    const Wide<Limbs> x(d.numerator), y = shifted(Wide<Limbs>(1), d.exponent) - x, three(3), yy = y * y;
-    const Wide<Limbs> inner =
-        (Wide<Limbs>(f[3]) * x + three * Wide<Limbs>(f[2]) * y) * x + three * Wide<Limbs>(f[1]) * yy;
-    return sign_of(inner * x + Wide<Limbs>(f[0]) * (yy * y));
-  }
-};
-
-template <int Limbs, class T>
-std::optional<DoubleBracket> bracket(const T (&f)[4], int bits, const ContactInterval& found) {
-  const double width = std::ldexp(1.0, -found.depth), lo = double(found.k) * width;
-  if (found.exact) return DoubleBracket{lo, lo};
-  const double hi = lo + width;  // exact: k < 2^24
-  CubicSign<Limbs, T> sign{f, bits};
-  double c[4];
-  for (int i = 0; i < 4; ++i) c[i] = estimate(f[i]);
-  for (int level = found.depth - 1; level >= 0; --level) {  // to the interval, as the search went there
-    const double a = 0.5 * (c[0] + c[1]), m = 0.5 * (c[1] + c[2]), b = 0.5 * (c[2] + c[3]);
-    const double am = 0.5 * (a + m), mb = 0.5 * (m + b), middle = 0.5 * (am + mb);
-    if (found.k >> level & 1)
-      c[0] = middle, c[1] = mb, c[2] = b;
-    else
-      c[1] = a, c[2] = am, c[3] = middle;
-  }
-  // f has no zero at lo, and at hi the other sign.
-  const int before = lo == 0 ? sign_of(f[0]) : sign.at(lo);
-  const double guess = (c[0] < 0) != (c[3] < 0) ? approximate_root(c) : 0.5;
-  const DoubleBracket r =
-      adjacent_doubles(lo, hi, lo + guess * width, [&](double t) { return before * sign.at(t); });
-  if (!sign.fits) return std::nullopt;
-  return r;
 }
 
 struct Decided {
   Answer answer;
+  bool final;                         // wider integers would not know more
   std::optional<DoubleBracket> time;  // where it is yes; none: not known as precisely as was asked for
 };
 
 template <int Limbs, class C, class M, class T>
 Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerPoints<C>& t1, int bits,
                int depth, bool want_time) {
-  ExactSearch<C, M, T> s(pair.kind, relative_vectors(pair.kind, t0), relative_vectors(pair.kind, t1), depth);
+  const int cubic_bits = cubic_bits_for(bits);
+  ExactSearch<Limbs, C, M, T> s(pair.kind, relative_vectors(pair.kind, t0), relative_vectors(pair.kind, t1),
+                                cubic_bits, depth);
   const ContactInterval found = s.first();
-  if (found.answer != Answer::yes) return {found.answer, {}};
-  if (want_time) return {found.answer, bracket<Limbs>(s.cubic(), bits, found)};
+  if (found.answer != Answer::yes) return {found.answer, found.answer == Answer::no || found.zoomed, {}};
   const double width = std::ldexp(1.0, -found.depth), lo = double(found.k) * width;
-  return {found.answer, DoubleBracket{lo, found.exact ? lo : lo + width}};
+  if (found.exact) return {found.answer, true, DoubleBracket{lo, lo}};
+  if (!want_time) return {found.answer, true, DoubleBracket{lo, lo + width}};
+  return {found.answer, true, bracket_of<Limbs>(s.cubic(), cubic_bits, found.k, found.depth)};
 }
 
 // Coordinates of up to 61 bits in machine words; first with a cubic of 128 bits where that is enough.
@@ -142,7 +103,7 @@ Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
   const int shallow = depth_for(grid.bits, 128);
   if (shallow >= 4) {
     const Decided r = search<8, std::int64_t, Int128, Int128>(pair, t0, t1, grid.bits, shallow, want_time);
-    if (r.answer != Answer::unknown) return r;
+    if (r.final) return r;
   }
   return search<8, std::int64_t, Int128, Wide<4>>(pair, t0, t1, grid.bits, depth_for(grid.bits, 256),
                                                   want_time);
@@ -153,7 +114,7 @@ Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool w
   using W = Wide<kWide>;
   const Dyadic start = to_dyadic(from);
   const int bits = grid.bits + start.exponent + 1, depth = depth_for(bits, 64 * kWide);
-  if (depth < 4) return {Answer::unknown, {}};
+  if (depth < 4) return {Answer::unknown, true, {}};
   auto t0 = on_grid<W>(pair.t0, grid.last), t1 = on_grid<W>(pair.t1, grid.last);
   if (from > 0) {  // the positions then, in units that make them integers
     const W one = shifted(W(1), start.exponent), passed(start.numerator);

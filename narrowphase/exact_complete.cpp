@@ -82,7 +82,8 @@ DoubleBracket bracket(const IsolatedRoot& root, bool adjacent) {
   if (!adjacent) return {lo, hi};
   const int before = sign_at(root.p, root.k, root.depth);
   // A double strictly between lo and hi lies inside the isolating interval.
-  return adjacent_doubles(lo, hi, 0.5 * (lo + hi), [&](double t) {
+  const double guess = lo + position_in_interval(root) * (hi - lo);
+  return adjacent_doubles(lo, hi, guess, [&](double t) {
     const Dyadic d = to_dyadic(t);
     return before * sign_at(root.p, d.numerator, unsigned(d.exponent));
   });
@@ -184,7 +185,8 @@ std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair, bool 
   set_points(pair, t0, t1);
   std::optional<DoubleBracket> first;
   CompleteDecision(pair.kind, t0, t1).find([&](const IsolatedRoot& root) {
-    const DoubleBracket t = bracket(root, adjacent);  // rounding is monotonic: the ends of the earliest are the smallest ends
+    const DoubleBracket t =
+        bracket(root, adjacent);  // rounding is monotonic: the ends of the earliest are the smallest ends
     first = first ? DoubleBracket{std::min(first->lo, t.lo), std::min(first->hi, t.hi)} : t;
   });
   return first;

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 
+#include "narrowphase/exact_bracket.hpp"
 #include "narrowphase/exact_static.hpp"
 
 namespace onset {
@@ -21,22 +22,25 @@ struct ContactInterval {
   std::uint64_t k = 0;
   int depth = 0;
   bool exact = false;
+  bool zoomed = false;  // unknown although f's root is known to the last bit: wider integers will not help
 };
 
-// C: coordinates of q, a, b, below 2^c. M: products of two, 2^(2c + 2). T: f, 2^(3c + 5 + 3 depth).
-template <class C, class M, class T>
+// N: limbs that f at a double takes. C: coordinates of q, a, b, below 2^c. M: products of two, 2^(2c + 2). T:
+// f, 2^(3c + 5 + 3 depth).
+template <int N, class C, class M, class T>
 class ExactSearch {
  public:
-  ExactSearch(PairKind kind, const RelativeVectors<C>& r0, const RelativeVectors<C>& r1, int max_depth)
-      : kind_(kind), r0_(r0), r1_(r1), max_depth_(max_depth) {}
+  ExactSearch(PairKind kind, const RelativeVectors<C>& r0, const RelativeVectors<C>& r1, int cubic_bits,
+              int max_depth)
+      : kind_(kind), r0_(r0), r1_(r1), cubic_bits_(cubic_bits), max_depth_(max_depth) {}
 
   ContactInterval first() {
     const Normal n = set_cubic();
-    if (sign_of(f_[0]) == 0 && coplanar_touch<M>(kind_, r0_)) return {Answer::yes, 0, 0, true};
+    if (sign_of(f_[0]) == 0 && coplanar_touch<M>(kind_, r0_)) return {Answer::yes, 0, 0, true, false};
     if (sign_of(f_[0]) == 0 && sign_of(f_[1]) == 0 && sign_of(f_[2]) == 0 && sign_of(f_[3]) == 0) return {};
     if (has_no_root(f_)) return at_end();
-    Slot slot;
-    set_slot(n, slot);
+    set_slot(n, whole_);
+    Slot slot = whole_;
     const Answer inside = visit(slot, 0, 0);
     if (inside == Answer::no) return at_end();
     found_.answer = inside;
@@ -45,6 +49,7 @@ class ExactSearch {
   const T (&cubic() const)[4] { return f_; }  // Bernstein coefficients on [0, 1], up to a positive factor
 
  private:
+  static constexpr int kZoom = 10;       // deeper than this, where f has one root it is found to the last bit
   static constexpr int kQuadratics = 5;  // N, then what must have its sign
   struct Slot {
     T f[4];
@@ -200,15 +205,16 @@ class ExactSearch {
     if (depth > 0 && sign_of(s.f[0]) == 0) {
       const Answer start = touches_at_start(s);
       if (start != Answer::no) {
-        found_ = {start, k, depth, true};
+        found_ = {start, k, depth, true, false};
         return start;
       }
     }
     if (has_no_root(s.f) || outside(s)) return Answer::no;
     if (inside(s) && has_one_root(s.f)) {
-      found_ = {Answer::yes, k, depth, false};
+      found_ = {Answer::yes, k, depth, false, false};
       return Answer::yes;
     }
+    if (s.sign != 0 && depth >= std::min(kZoom, max_depth_) && has_one_root(s.f)) return zoom(s, k, depth);
     if (depth == max_depth_) return Answer::unknown;
     Slot l, r;
     halve(s, l, r);
@@ -216,14 +222,46 @@ class ExactSearch {
     return left != Answer::no ? left : visit(r, 2 * k + 1, depth + 1);
   }
 
+  // Twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
+  static Wide<N> polarised(const T (&g)[3], const Wide<N>& x, const Wide<N>& x1, const Wide<N>& one) {
+    const Wide<N> y = one - x, y1 = one - x1;
+    return Wide<N>(g[0]) * (y * y1) + Wide<N>(g[1]) * (x * y1 + x1 * y) + Wide<N>(g[2]) * (x * x1);
+  }
+
+  // f has one root in the slot, N a sign: the rest looked at between the adjacent doubles around the root.
+  Answer zoom(const Slot& s, std::uint64_t k, int depth) {
+    found_.zoomed = true;
+    const auto t = bracket_of<N>(f_, cubic_bits_, k, depth);
+    if (!t) return Answer::unknown;
+    const Dyadic lo = to_dyadic(t->lo), hi = to_dyadic(t->hi);
+    const int e = std::max(lo.exponent, hi.exponent);
+    // A quadratic is below 2^(2c + 5), and with x, y < 2^e what it gives below 2^(2c + 2e + 8).
+    if (cubic_bits_ + 2 * e + 4 > 64 * N) return Answer::unknown;
+    const Wide<N> one = shifted(Wide<N>(1), e), x = shifted(Wide<N>(lo.numerator), e - lo.exponent),
+                  x1 = shifted(Wide<N>(hi.numerator), e - hi.exponent);
+    Answer answer = Answer::yes;
+    for (int i = 1; i < kQuadratics; ++i) {
+      if (!s.open[i]) continue;
+      const int first = s.sign * sign_of(polarised(whole_.g[i], x, x, one));
+      const int middle = s.sign * sign_of(polarised(whole_.g[i], x, x1, one));
+      const int last = s.sign * sign_of(polarised(whole_.g[i], x1, x1, one));
+      if (t->lo == t->hi ? first < 0 : first <= 0 && middle <= 0 && last <= 0 && (first | middle | last) != 0)
+        return Answer::no;
+      if (first < 0 || middle < 0 || last < 0) answer = Answer::unknown;
+    }
+    if (answer == Answer::yes) found_ = {answer, k, depth, false, true};
+    return answer;
+  }
+
   ContactInterval at_end() const {
     const bool touches = sign_of(f_[3]) == 0 && coplanar_touch<M>(kind_, r1_);
-    return {touches ? Answer::yes : Answer::no, 1, 0, true};
+    return {touches ? Answer::yes : Answer::no, 1, 0, true, false};
   }
 
   PairKind kind_;
   RelativeVectors<C> r0_, r1_;
-  int max_depth_;
+  int cubic_bits_, max_depth_;
+  Slot whole_;
   T f_[4];
   ContactInterval found_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "narrowphase/exact_root.hpp"
+
 namespace onset {
 
 void IntegerPolynomial::trim() {
@@ -141,6 +143,21 @@ int sign_at(const IntegerPolynomial& p, const Integer& numerator, unsigned expon
   for (int i = p.degree(); i >= 0; --i)
     sum = sum * numerator + (p[i] << (exponent * unsigned(p.degree() - i)));
   return sum.sign();
+}
+
+double position_in_interval(const IsolatedRoot& root) {
+  const Coefficients b = bernstein(root.p, root.k, root.depth);
+  unsigned longest = 0;
+  for (const Integer& x : b)
+    if (!x.is_zero()) longest = std::max(longest, unsigned(msb(abs(x))));
+  const unsigned shift = longest > 900 ? longest - 900 : 0;  // into the range of doubles
+  double d[4], c[4];
+  for (std::size_t i = 0; i < b.size(); ++i)
+    d[i] = double(b[i].sign()) * static_cast<double>(Integer(abs(b[i]) >> shift));
+  c[0] = d[0], c[3] = d[b.size() - 1];
+  c[1] = b.size() == 4 ? d[1] : b.size() == 3 ? (d[0] + 2 * d[1]) / 3 : (2 * d[0] + d[1]) / 3;
+  c[2] = b.size() == 4 ? d[2] : b.size() == 3 ? (2 * d[1] + d[2]) / 3 : (d[0] + 2 * d[1]) / 3;
+  return approximate_root(c);
 }
 
 std::vector<IsolatedRoot> isolated_roots(const IntegerPolynomial& f) {

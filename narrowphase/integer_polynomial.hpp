@@ -45,6 +45,8 @@ struct IsolatedRoot {
   unsigned depth = 0;
   bool exact = false;
 };
+// Where in its interval the inexact root of a polynomial of degree <= 3 lies, from 0 to 1, roughly.
+double position_in_interval(const IsolatedRoot& root);
 // Of f != 0 in [0, 1], in increasing order.
 std::vector<IsolatedRoot> isolated_roots(const IntegerPolynomial& f);
 // The sign of g at the root, whose interval it may narrow. Ends always: zero is decided by common divisors.

@@ -23,15 +23,21 @@ ExactPair NarrowPhase::exact_pair(PairKind kind, const int (&vertices)[4]) const
 ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double from) const {
   if (!settles()) return {Answer::unknown, {}};
   const bool complete = settles_completely();
+  if (!complete && found.verdict == Verdict::budget)
+    return {Answer::unknown, {}};  // as little as was asked for
   const ExactPair pair = exact_pair(c.kind, c.input.vertices[c.row]);
   if (from > 0) {
     if (!complete) return {Answer::unknown, {}};
     return {exactly_touches(pair, from) ? Answer::yes : Answer::no, {from, INFINITY}};
   }
   if (found.touched_by <= 1 && !in_.exact_times) return {Answer::yes, {found.t, found.touched_by}};
+  if (complete && in_.exact_times) {
+    const auto time = exact_first_contact(pair);
+    return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
+  }
   const ExactAnswer r = exact_answer(pair, complete ? Effort::complete : Effort::quick);
   // A start that is apart needs its own toi > 0.
-  const bool wants_time = in_.exact_times || found.verdict != Verdict::contact;
+  const bool wants_time = found.verdict != Verdict::contact;
   if (r.answer != Answer::yes || !wants_time || r.time.lo == r.time.hi) return r;
   return {Answer::yes, *exact_first_contact(pair)};
 }

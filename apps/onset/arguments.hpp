@@ -9,7 +9,7 @@ namespace app {
 
 struct Arguments {
   onset::Options options;
-  std::string broad_phase = "auto", narrow_phase = "auto", kernel = "auto", certainty = "conservative", norm = "euclidean";
+  std::string broad_phase = "auto", narrow_phase = "auto", kernel = "auto", certainty = "certify", norm = "euclidean";
   std::string json, csv;  // a path, "-" for stdout, empty for none
 };
 

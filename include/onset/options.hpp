@@ -15,10 +15,11 @@ enum class BroadPhaseMethod { automatic, bvh, hash, brute };
 enum class NarrowPhaseMethod { automatic, inclusion };
 // automatic: ONSET_KERNEL in the environment (scalar, avx2), else the best there is.
 enum class Kernel { automatic, scalar, avx2 };
-// How far the pipeline goes to tell a real contact from one that only comes within the tolerance, at separation 0.
-// conservative: not at all. certify: a few microseconds for each contact reported, at most; what that proves to be no
-// contact is dropped, what it proves real is marked certain. exact: until it is known; every contact reported is real for the
-// stored positions (docs/exactness.md).
+// How far the pipeline goes to tell a real contact from one that only comes within the tolerance, at
+// separation 0 (docs/exactness.md). conservative: not at all. certify: a certificate in doubles, and where
+// that fails a search in integers of fixed width, microseconds a contact at most: what is proved to be no
+// contact is dropped, what is proved real is marked certain, the rest stays. exact: until it is known, so
+// every contact reported is real for the stored positions.
 enum class CertaintyLevel { conservative, certify, exact };
 
 struct Options {
@@ -72,9 +73,10 @@ struct Options {
   // 0: in the caller's task arena, as it is. n >= 1: at most n threads in an arena of the call.
   int threads = 0;
 
-  // With a separation > 0 (or, in a line search, a share of the gap to keep), and at any level: a contact is marked certain
-  // where a point of each primitive was found that are no farther apart than that.
-  CertaintyLevel certainty = CertaintyLevel::conservative;
+  // With a separation > 0, contacts are marked certain at level exact only, where a point of each primitive
+  // was found that are no farther apart than that; a line search keeps a separation of its own, and marks
+  // none.
+  CertaintyLevel certainty = CertaintyLevel::certify;
 
   BroadPhaseMethod broad_phase = BroadPhaseMethod::automatic;
   NarrowPhaseMethod narrow_phase = NarrowPhaseMethod::automatic;

@@ -26,7 +26,9 @@ class Small(AppTest):
         self.assertEqual(list(result)[:5], ["outcome", "step", "limiting", "candidates", "seconds"])
         self.assertEqual(result["outcome"], "contact")
         self.check_toi(result["step"])
-        self.assertEqual(result["limiting"], {"kind": "vf", "a": 3, "b": 0, "vertices": [3, 0, 1, 2]})
+        pair = result["limiting"]
+        self.assertEqual(list(pair), ["kind", "a", "b", "vertices", "certainty", "toi_hi"])
+        self.assertEqual([pair[key] for key in ["kind", "a", "b", "vertices"]], ["vf", 3, 0, [3, 0, 1, 2]])
         self.assertEqual(list(result["candidates"]), COUNTS)
         self.assertGreaterEqual(result["candidates"]["vf"], 1)
         self.assertEqual(list(result["seconds"]), SECONDS)
@@ -59,14 +61,28 @@ class Small(AppTest):
 
     def test_active_set_csv(self):
         header, row = self.csv("active-set", self.a, self.b, "--tolerance", "1e-6").splitlines()
-        self.assertEqual(header, "kind,a,b,toi,v0,v1,v2,v3,status,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate")
+        self.assertEqual(header, "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate")
         fields = row.split(",")
         self.assertEqual(fields[:3] + fields[4:9], ["vf", "3", "0", "3", "0", "1", "2", "contact"])
         self.check_toi(float(fields[3]))
-        weights, normal, (gap, speed) = [[float(x) for x in fields[i:j]] for i, j in [(9, 13), (13, 16), (16, 18)]]
+        weights, normal, (gap, speed) = [[float(x) for x in fields[i:j]] for i, j in [(11, 15), (15, 18), (18, 20)]]
         self.assertEqual((weights[0], sum(weights)), (1, 0))
-        self.assertEqual((normal, speed, fields[18]), ([0, 0, 1], -2, "0"))
+        self.assertEqual((normal, speed, fields[20]), ([0, 0, 1], -2, "0"))
         self.assertTrue(0 <= gap <= 1e-6)
+
+    def test_certainty(self):
+        """The exact time is 1/2; without it the contact is known to be somewhere near."""
+        exact = self.json("step", self.a, self.b, "--certainty", "exact")
+        self.assertEqual((exact["step"], exact["limiting"]["certainty"], exact["limiting"]["toi_hi"]), (0.5, "certain", 0.5))
+        for level, certain in [("conservative", "within_tolerance"), ("certify", "certain"), ("exact", "certain")]:
+            row = self.csv("active-set", self.a, self.b, "--certainty", level).splitlines()[1].split(",")
+            self.assertEqual(row[9], certain)
+            self.assertEqual(float(row[10]) >= 0.5, True)
+            self.assertEqual(row[10] == "inf", level == "conservative")
+        pair = self.json("active-set", self.a, self.b, "--certainty", "exact")["earliest_pair"]
+        self.assertEqual((pair["toi"], pair["certainty"], pair["toi_hi"]), (0.5, "certain", 0.5))
+        plain = self.json("step", self.a, self.b, "--certainty", "conservative")["limiting"]
+        self.assertEqual((plain["certainty"], plain["toi_hi"]), ("within_tolerance", None))
 
     def test_candidates(self):
         result = self.json("candidates", self.a, self.b)

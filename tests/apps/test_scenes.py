@@ -77,6 +77,31 @@ class Scenes(AppTest):
                 self.assertGreaterEqual(result["step"], contacts["earliest"])
                 self.assertLess(result["step"], 1)
 
+    def test_exact_active_sets(self):
+        """Neither a false negative nor a false positive, at any tolerance, so the same set at each."""
+        for name in SCENES:
+            expected = {kind: {pair for pair, hit in listed.items() if hit} for kind, listed in truth(name).items()}
+            tolerances = ["1e-3", "1e-6", "1e-8", "1e-10"] if name == "cloth-funnel" else ["1e-3", "1e-10"]
+            for tolerance in tolerances:
+                with self.subTest(name, tolerance=tolerance):
+                    text = self.csv("active-set", *frames(name), "--certainty", "exact", "--relative-tolerance", tolerance)
+                    rows = [row.split(",") for row in text.splitlines()[1:]]
+                    found = {kind: {(int(r[1]), int(r[2])) for r in rows if r[0] == kind} for kind in expected}
+                    self.assertEqual(found, expected)
+                    self.assertEqual({r[9] for r in rows} - {"certain", "touching_at_start"}, set())
+                    self.assertTrue(all(float(r[3]) <= float(r[10]) <= 1 for r in rows))
+
+    def test_exact_steps(self):
+        for name in SCENES:
+            with self.subTest(name):
+                steps = [self.json("step", *frames(name), "--certainty", "exact", "--relative-tolerance", tolerance)
+                         for tolerance in ["1e-3", "1e-10"]]
+                times = {(s["step"], json.dumps(s["limiting"])) for s in steps}
+                self.assertEqual(len(times), 1)
+                pair = self.json("active-set", *frames(name), "--certainty", "exact")["earliest_pair"]
+                self.assertEqual(pair["toi"], steps[0]["step"])
+                self.assertLessEqual(steps[0]["limiting"]["toi_hi"] - pair["toi"], 2 ** -52)
+
     def test_candidate_counts(self):
         for name, (*_, vf, ee) in SCENES.items():
             with self.subTest(name):

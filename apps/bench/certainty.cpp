@@ -1,0 +1,67 @@
+// What certainty costs: the active set of recorded steps at each CertaintyLevel, in one process, in turn.
+//
+//   onset_certainty_bench A B [A B ...]
+//
+// CPU seconds of one thread, the least of several rounds; relative tolerance 1e-8 and 1e-3.
+#include <cstdio>
+#include <vector>
+
+#include "error.hpp"
+#include "scene.hpp"
+#include "timing.hpp"
+
+namespace {
+
+constexpr int kRounds = 7;
+constexpr onset::CertaintyLevel kLevels[] = {onset::CertaintyLevel::conservative,
+                                             onset::CertaintyLevel::certify, onset::CertaintyLevel::exact};
+
+struct Measured {
+  double seconds = INFINITY;
+  std::size_t contacts = 0, certain = 0;
+};
+
+void measure(const app::Scene& scene, onset::Options options, Measured& m) {
+  const app::Stopwatch watch;
+  const onset::ActiveSet set = onset::construct_active_set(scene.mesh, scene.x_t0, scene.x_t1, options);
+  m.seconds = std::min(m.seconds, watch.elapsed().cpu);
+  m.contacts = set.size();
+  m.certain = 0;
+  for (const onset::Certainty c : set.certainty) m.certain += c != onset::Certainty::within_tolerance;
+}
+
+void compare(const char* name, const app::Scene& scene, double tolerance) {
+  Measured m[3];
+  onset::Options options;
+  options.threads = 1;
+  options.relative_tolerance = tolerance;
+  for (int round = 0; round < kRounds; ++round)
+    for (int level = 0; level < 3; ++level) {
+      options.certainty = kLevels[level];
+      measure(scene, options, m[level]);
+    }
+  std::printf("| %s | %.0e | %.1f | %zu | %+.1f %% | %zu of %zu | %+.1f %% | %zu of %zu |\n", name, tolerance,
+              1e3 * m[0].seconds, m[0].contacts, 100 * (m[1].seconds / m[0].seconds - 1), m[1].certain,
+              m[1].contacts, 100 * (m[2].seconds / m[0].seconds - 1), m[2].certain, m[2].contacts);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3 || argc % 2 == 0) {
+    std::fprintf(stderr, "usage: onset_certainty_bench A B [A B ...]\n");
+    return 2;
+  }
+  std::printf("| step | tolerance | conservative ms | contacts | certify | certain | exact | certain |\n");
+  std::printf("|---|---|---|---|---|---|---|---|\n");
+  try {
+    for (int i = 1; i < argc; i += 2) {
+      const app::Scene scene = app::read_scene(argv[i], argv[i + 1]);
+      for (const double tolerance : {1e-8, 1e-3}) compare(argv[i], scene, tolerance);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "onset_certainty_bench: %s\n", error.what());
+    return 1;
+  }
+}
