@@ -81,7 +81,7 @@ inline void first_guess(const V (&f)[4], V t, V& root, V& slope) {
   const V three = V::all(3), c1 = three * (x[1] - x[0]), c2 = three * ((x[0] - x[1]) + (x[2] - x[1]));
   const V c3 = (x[3] - x[0]) - three * (x[2] - x[1]);
   V s = zero<V>(), rate = c1;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const V value = ((c3 * s + c2) * s + c1) * s + x[0];
     rate = (three * c3 * s + V::all(2) * c2) * s + c1;
     s = min(max(s - value / rate, zero<V>()), one<V>());

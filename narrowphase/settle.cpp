@@ -36,6 +36,9 @@ ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double
     return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
   }
   const ExactAnswer r = exact_answer(pair, complete ? Effort::complete : Effort::quick);
+  // Within rounding of touching at the start: its outcome is that of doubles, unless all is to be exact.
+  if (!complete && found.verdict == Verdict::initial)
+    return r.answer == Answer::yes && r.time.hi == 0 ? r : ExactAnswer{Answer::unknown, {}};
   // A start that is apart needs its own toi > 0.
   const bool wants_time = found.verdict != Verdict::contact;
   if (r.answer != Answer::yes || !wants_time || r.time.lo == r.time.hi) return r;
