@@ -146,29 +146,36 @@ struct Contact {
     const double distance = std::sqrt(dot(apart, apart));
     // The direction of p1 - p2 is good to 2^-10 where it is so much longer than its error.
     const bool direction = distance > 0x1p10 * noise;
-    if (plane.resolved && (inside || !direction))
-      return oriented(unit(cross(unit(plane.along), unit(plane.across))));
-    return distance > 4 * noise ? unit(apart) : touching();
+    const Vec across = plane.resolved ? unit(cross(unit(plane.along), unit(plane.across))) : Vec{};
+    if (plane.resolved && (inside || !direction)) {
+      if (const double side = side_of(across); side != 0) return side * across;
+      if (inside) return wound(across);
+    }
+    return distance > 4 * noise ? unit(apart) : touching(across);
   }
 
  private:
-  // n = +- a x b. In turn: the side that the points are on, the exact side at t = 0, the side that the points
-  // came from, and, for what slides along, the winding.
-  Vec oriented(const Vec& n) const {
-    const double now = dot(n, apart), past = parting ? dot(n, motion_apart) : -dot(n, motion_apart);
-    if (std::fabs(now) > 4 * noise) return now > 0 ? n : -1 * n;
-    const bool along_cross = !plane.swapped;
+  Vec past() const { return parting ? motion_apart : -1 * motion_apart; }
+
+  // The sign that turns n = +- a x b, in turn, to the side that the points are on, to the exact one at t = 0,
+  // and to the one that the points came from. 0: they stay in the plane.
+  double side_of(const Vec& n) const {
+    const double now = dot(n, apart), before = dot(n, past());
+    if (std::fabs(now) > 4 * noise) return now > 0 ? 1 : -1;
     if (t == 0)
-      if (const int side = side_at_start(kind, motion, vertices))
-        return (side > 0) == along_cross ? n : -1 * n;
-    if (std::fabs(past) > 4 * noise) return past > 0 ? n : -1 * n;
-    return along_cross == odd(motion.axes) ? -1 * n : n;
+      if (const int side = side_at_start(kind, motion, vertices)) return (side > 0) != plane.swapped ? 1 : -1;
+    return std::fabs(before) > 4 * noise ? (before > 0 ? 1 : -1) : 0;
   }
-  Vec touching() const {
-    const Vec past = parting ? motion_apart : -1 * motion_apart, e = unit(plane.along);
-    const Vec n = past - dot(past, e) * e;
-    return std::sqrt(dot(n, n)) > 4 * noise ? unit(n - dot(n, e) * e) : square_to(e);
+
+  // Where it came from: within the plane; or square to the longest edge, or along it, end on end. At rest the
+  // winding decides, or, without one, any direction square to the edge.
+  Vec touching(const Vec& across) const {
+    const Vec e = plane.resolved ? Vec{} : unit(plane.along), n = past() - dot(past(), e) * e;
+    if (std::sqrt(dot(n, n)) > 4 * noise) return unit(n - dot(n, e) * e);
+    if (std::sqrt(dot(past(), past())) > 4 * noise) return unit(past());
+    return plane.resolved ? wound(across) : square_to(e);
   }
+  Vec wound(const Vec& across) const { return plane.swapped != odd(motion.axes) ? -1 * across : across; }
 };
 
 }  // namespace

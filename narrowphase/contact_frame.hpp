@@ -13,7 +13,7 @@ struct ContactFrame {
   std::array<double, 4> weight{};
   // Unit, from p2 to p1, in the caller's axes. The cross product of the face's edges, or of the two edges,
   // where that is resolved and the closest points are inside both primitives; else the direction of p1 - p2;
-  // else, touching, whatever is square to the longest edge and nearest to where the pair came from.
+  // else, touching, where the pair came from, square to the longest edge if it did not come along it.
   std::array<double, 3> normal{};
   double gap = 0;    // |p1 - p2|, model length
   double speed = 0;  // normal . (motion of p1 - p2 over the whole step), model length; < 0: closing

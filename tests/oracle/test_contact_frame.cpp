@@ -214,6 +214,23 @@ TEST_CASE("touching pairs without a normal of their own get one from where they 
     }
 }
 
+TEST_CASE("pairs that meet along an edge or within a plane are divided across their way", "[unit]") {
+  // Two edges on one line, end on end; a vertex that slides down in the face's plane onto its upper edge.
+  const Query ends{PairKind::edge_edge,
+                   {{{0, 0, 2}, {0, 0, 3}, {0, 0, 0}, {0, 0, 1}}},
+                   {{{0, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 0, 1}}}};
+  const Query slide{PairKind::vertex_face,
+                    {{{0.25, 0, 2}, {0, 0, 0}, {1, 0, 1}, {-1, 0, 1}}},
+                    {{{0.25, 0, 0.5}, {0, 0, 0}, {1, 0, 1}, {-1, 0, 1}}}};
+  for (const Query& q : {ends, slide}) {
+    const ActiveSet set = construct_active_set(mesh_of(q.kind), matrix(q.t0), matrix(q.t1));
+    REQUIRE(set.size() == 1);
+    CAPTURE(scenes::name(q.kind));
+    CHECK(set.normal[0] == Point{0, 0, 1});
+    CHECK(set.degenerate[0] == 1);
+  }
+}
+
 TEST_CASE("constraints hold at the start of a step and tell how far its end is through", "[unit]") {
   scenes::Random random(seed() + 20);
   int rows = 0;
