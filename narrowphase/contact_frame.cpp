@@ -38,7 +38,7 @@ struct Plane {
   bool swapped = false;  // b is the longer one
   Vec along, across;     // the longer edge, and the other without its part along it
   double share = 0;      // that part, of the longer edge
-  bool resolved = false;
+  bool solvable = false, resolved = false;
 };
 
 // `noise`: bound on the error of a and b. 2^10 of it across leaves a normal good to 2^-10.
@@ -53,7 +53,8 @@ Plane plane_of(const Differences& d, double noise) {
   r.across = other - r.share * r.along;
   r.across = r.across - (dot(r.across, r.along) / size) * r.along;
   const double width = dot(r.across, r.across);
-  r.resolved = width > 0x1p-600 && std::sqrt(width) > 0x1p10 * noise;
+  r.solvable = width > 0x1p-600;
+  r.resolved = r.solvable && std::sqrt(width) > 0x1p10 * noise;
   return r;
 }
 
@@ -65,11 +66,25 @@ bool in_interior(PairKind kind, double U, double V) {
 }
 
 Nearest nearest(PairKind kind, const Differences& d, const Plane& plane) {
-  if (plane.resolved) {
-    const double y = dot(d.q, plane.across) / dot(plane.across, plane.across);
-    const double x = dot(d.q, plane.along) / dot(plane.along, plane.along) - y * plane.share;
+  Nearest best;
+  double least = dot(d.q, d.q);
+  // Also above a plane that is too thin for a normal: its boundary may be as far as its width.
+  if (plane.solvable) {
+    double x = 0, y = 0;
+    Vec left = d.q;
+    for (int round = 0; round < 2;
+         ++round) {  // the second takes back what the first lost to a thin primitive
+      const double dy = dot(left, plane.across) / dot(plane.across, plane.across);
+      x += dot(left, plane.along) / dot(plane.along, plane.along) - dy * plane.share;
+      y += dy;
+      left = plane.swapped ? d.at(y, x) : d.at(x, y);
+    }
     const double U = plane.swapped ? y : x, V = plane.swapped ? x : y;
-    if (in_domain(kind, U, V)) return {U, V, in_interior(kind, U, V)};
+    if (in_domain(kind, U, V)) {
+      best = {U, V, in_interior(kind, U, V)};
+      if (plane.resolved) return best;
+      least = dot(left, left);
+    }
   }
   struct Side {
     double U, V, dU, dV;
@@ -78,8 +93,6 @@ Nearest nearest(PairKind kind, const Differences& d, const Plane& plane) {
   static constexpr Side kSquare[] = {{0, 0, 1, 0}, {0, 0, 0, 1}, {0, 1, 1, 0}, {1, 0, 0, 1}};
   const bool triangle = kind == PairKind::vertex_face;
   const Side* sides = triangle ? kTriangle : kSquare;
-  Nearest best;
-  double least = dot(d.q, d.q);
   for (int i = 0; i < (triangle ? 3 : 4); ++i) {
     const Side& s = sides[i];
     const Vec w = d.at(s.U, s.V), e = s.dU * d.a + s.dV * d.b;
