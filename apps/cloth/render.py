@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws frames that onset_cloth has written, side by side, as one PNG.
 
-  render.py OUT.png FRAME.ply... [--cloth FACES] [--elevation DEGREES] [--azimuth DEGREES]
+  render.py OUT.png FRAME.ply... [--cloth FACES...] [--elevation DEGREES] [--azimuth DEGREES]
 """
 
 import argparse
@@ -55,14 +55,18 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("output")
     parser.add_argument("frames", nargs="+")
-    parser.add_argument("--cloth", type=int, default=1 << 30, help="faces of the cloth, which come first")
+    parser.add_argument("--cloth", type=int, nargs="+", default=[1 << 30],
+                        help="faces of the cloth, which come first: one number, or one a frame")
     parser.add_argument("--elevation", type=float, default=25)
     parser.add_argument("--azimuth", type=float, default=-60)
     options = parser.parse_args()
+    cloth = options.cloth * (len(options.frames) if len(options.cloth) == 1 else 1)
+    if len(cloth) != len(options.frames):
+        parser.error("--cloth takes one number, or one a frame")
     figure = plt.figure(figsize=(3 * len(options.frames), 3))
     for i, path in enumerate(options.frames):
         axes = figure.add_subplot(1, len(options.frames), i + 1, projection="3d", computed_zorder=False)
-        draw(axes, *read_frame(path), options.cloth, (options.elevation, options.azimuth))
+        draw(axes, *read_frame(path), cloth[i], (options.elevation, options.azimuth))
     figure.subplots_adjust(0, 0, 1, 1, 0, 0)
     figure.savefig(options.output, dpi=80)
 
