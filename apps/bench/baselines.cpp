@@ -43,13 +43,16 @@ Finder onset_with(const onset::Options& options) {
 }
 
 std::vector<NamedFinder> finders(const Settings& s) {
-  onset::Options options, inclusion, fine;
-  options.min_separation = inclusion.min_separation = fine.min_separation = s.separation;
+  onset::Options options, inclusion, fine, exact;
+  options.min_separation = inclusion.min_separation = fine.min_separation = exact.min_separation =
+      s.separation;
   inclusion.narrow_phase = onset::NarrowPhaseMethod::inclusion;
   inclusion.tolerance = 1e-6, inclusion.max_checks = s.limits.boxes;
   fine.relative_tolerance = 1e-12;
+  exact.certainty = onset::CertaintyLevel::exact;
   std::vector<NamedFinder> all{{"onset", onset_with(options)},
                                {"onset, 1e-12", onset_with(fine)},
+                               {"onset, exact", onset_with(exact)},
                                {"onset, inclusion alone", onset_with(inclusion)}};
   if (s.separation > 0) return all;  // the others know no separation
   const auto limits = s.limits;

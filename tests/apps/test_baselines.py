@@ -35,7 +35,7 @@ class Baselines(AppTest):
             path = self.queries(make)
             (path.parent / "toi.csv").write_text("0x1p-1,0x1p-1\ninf,inf\n0x1p-2,0x1p-2\n")
             found = self.finders(path)
-            self.assertEqual(list(found), ["onset", "onset, 1e-12", "onset, inclusion alone", "IRF", "UIRF", "cubic"])
+            self.assertEqual(list(found), ["onset", "onset, 1e-12", "onset, exact", "onset, inclusion alone", "IRF", "UIRF", "cubic"])
             for name, f in found.items():
                 counts = [f[key] for key in ["queries", "positives", "false_positives", "false_negatives", "zero", "cut"]]
                 self.assertEqual(counts, [3, 2, 0, 0, 0, 0], (make.__name__, name))
@@ -50,7 +50,7 @@ class Baselines(AppTest):
         path = self.queries(edge_edge)
         self.assertEqual(self.finders(path, "--every", "2")["onset"]["queries"], 2)
         found = self.finders(path, "--separation", "0.5")
-        self.assertEqual(len(found), 3)
+        self.assertEqual(len(found), 4)
         for f in found.values():
             self.assertEqual(f["positives"], 3, f["name"])
 

@@ -7,7 +7,8 @@
 namespace app {
 namespace {
 
-using onset::BroadPhaseMethod, onset::Kernel, onset::NarrowPhaseMethod, onset::Norm, onset::Options;
+using onset::BroadPhaseMethod, onset::CertaintyLevel, onset::Kernel, onset::NarrowPhaseMethod, onset::Norm,
+    onset::Options;
 
 // Brute force over more than this takes longer than everything else together.
 constexpr std::ptrdiff_t kBrutePrimitives = 20000;
@@ -101,6 +102,13 @@ void threads(Axis& axis, const Options& base, const Grounds& grounds) {
     if (n != base.threads) axis.add(std::to_string(n), [&](Options& o) { o.threads = n; });
 }
 
+void certainty(Axis& axis, const Options& base, const Grounds&) {
+  for (const auto& [name, level] :
+       {std::pair{"conservative", CertaintyLevel::conservative},
+        std::pair{"certify", CertaintyLevel::certify}, std::pair{"exact", CertaintyLevel::exact}})
+    if (level != base.certainty) axis.add(name, [l = level](Options& o) { o.certainty = l; });
+}
+
 void kernel(Axis& axis, const Options& base, const Grounds&) {
   if (base.kernel != Kernel::scalar) axis.add("scalar", [](Options& o) { o.kernel = Kernel::scalar; });
 }
@@ -113,6 +121,7 @@ constexpr NamedAxis kAxes[] = {{"tolerance", tolerance},
                                {"max-checks", max_checks},
                                {"min-separation", min_separation},
                                {"norm", norm},
+                               {"certainty", certainty},
                                {"narrow-phase", narrow_phase},
                                {"broad-phase", broad_phase},
                                {"threads", threads},
@@ -129,6 +138,11 @@ const char* word(BroadPhaseMethod m) {
 }
 const char* word(Kernel k) {
   return k == Kernel::scalar ? "Kernel::scalar" : k == Kernel::avx2 ? "Kernel::avx2" : "Kernel::automatic";
+}
+const char* word(CertaintyLevel c) {
+  return c == CertaintyLevel::exact     ? "CertaintyLevel::exact"
+         : c == CertaintyLevel::certify ? "CertaintyLevel::certify"
+                                        : "CertaintyLevel::conservative";
 }
 const char* word(Norm n) { return n == Norm::maximum ? "Norm::maximum" : "Norm::euclidean"; }
 
@@ -170,6 +184,7 @@ std::string in_words(const Options& o) {
   say(o.threads != defaults.threads, format("threads = %d", o.threads));
   say(o.broad_phase != defaults.broad_phase, std::string("broad_phase = ") + word(o.broad_phase));
   say(o.narrow_phase != defaults.narrow_phase, std::string("narrow_phase = ") + word(o.narrow_phase));
+  say(o.certainty != defaults.certainty, std::string("certainty = ") + word(o.certainty));
   say(o.kernel != defaults.kernel, std::string("kernel = ") + word(o.kernel));
   return text.empty() ? "the defaults" : text;
 }
