@@ -45,11 +45,6 @@ void write_query(Output& csv, const TruthQuery& query) {
 
 }  // namespace
 
-onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onset::Options& options) {
-  return kind == onset::PairKind::vertex_face ? onset::vertex_face_ccd({query.t0, query.t1}, options)
-                                              : onset::edge_edge_ccd({query.t0, query.t1}, options);
-}
-
 std::vector<std::string> write_dump(const std::string& path, const std::vector<DumpedPair>& pairs,
                                     const Points& x_t0, const Points& x_t1, const onset::Options& given,
                                     double tolerance) {

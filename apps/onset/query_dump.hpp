@@ -40,6 +40,4 @@ struct Expectation {
 // understood.
 std::optional<Expectation> read_expectation(const std::string& path);
 
-onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onset::Options& options);
-
 }  // namespace app
