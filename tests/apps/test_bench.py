@@ -14,8 +14,8 @@ class Bench(AppTest):
         results = [self.scenes("--cloth", "1000", *way)[0] for way in ways]
         for result in results:
             self.assertEqual((result["hash"], result["step_size"]), (results[0]["hash"], results[0]["step_size"]))
-        coarser, = self.scenes("--cloth", "1000", "--relative-tolerance", "1e-2")
-        self.assertNotEqual(coarser["hash"], results[0]["hash"])
+        finer, = self.scenes("--cloth", "1000", "--relative-tolerance", "1e-13")
+        self.assertNotEqual(finer["hash"], results[0]["hash"])
 
     def test_generated_cloths_grow(self):
         small, large = self.scenes("--cloth", "1000,16000")

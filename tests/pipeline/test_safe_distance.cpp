@@ -67,8 +67,10 @@ TEST_CASE("motion within the safe distances makes no contact", "[oracle][propert
         const Eigen::MatrixXd dx = motion_within(r, x, close, trial * 7919, random);
         const Eigen::MatrixXd there = x + dx;
         for (std::size_t v = 0; v < r.size(); ++v) CHECK(r[v] <= d_hat / 2);
+        Options conservative;  // near misses are reported
+        conservative.certainty = CertaintyLevel::conservative;
         // Pairs that touch from the start have r = 0 and stay as they are.
-        const ActiveSet set = construct_active_set(mesh, x, there);
+        const ActiveSet set = construct_active_set(mesh, x, there, conservative);
         for (std::size_t i = 0; i < set.size(); ++i) {
           const scenes::Query q = query_of(set.pair(i), x, there);
           if (set.status[i] == Outcome::initial_contact || set.status[i] == Outcome::initial_separating)
