@@ -90,10 +90,10 @@ void BoxTree::lay_out(bool motion) {
   view_.ids = ids_.data();
   view_.vertices = names_.empty() ? vertices_.data() : names_.data();
   view_.keys = keys_.empty() ? nullptr : keys_.data();
-  const int* bodies = bodies_.data();
+  std::size_t first = 0;
   for (int l = 0; l < view_.levels; ++l) {
-    view_.bodies[l] = bodies_.empty() ? nullptr : bodies;
-    bodies += std::size_t(view_.blocks[l]) * kBlock;
+    view_.bodies[l] = bodies_.empty() ? nullptr : bodies_.data() + first;
+    first += std::size_t(view_.blocks[l]) * kBlock;
   }
 }
 

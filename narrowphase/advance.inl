@@ -167,8 +167,12 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
   }
   judge(s, check, pairs, verdict);
   const int positive = bits(apart > zero<V>());
-  for (int l = 0; l < 4; ++l)
+  const int moved = bits(s.t > zero<V>());
+  for (int l = 0; l < 4; ++l) {
+    // Near contact at 0, yet certified until later: to be looked at there.
+    if (verdict[l] == int(Verdict::contact) && (moved >> l & 1)) verdict[l] = int(Verdict::stalled);
     if (!(positive >> l & 1)) verdict[l] = int(Verdict::initial);
+  }
 }
 
 // Four pairs where they stopped.

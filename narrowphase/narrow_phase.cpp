@@ -228,9 +228,10 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   }
   if (in_.rounding > 0) note_kept(c, found, stats);
   const ExactAnswer truth = settle(c, found, from);
-  if (truth.answer == Answer::no) return;
+  const bool keeps = in_.keep > 0 || in_.rounding > 0;  // then rounded positions have to stay apart, too
+  if (truth.answer == Answer::no && !keeps) return;
   const bool real = truth.answer == Answer::yes;
-  if (found.verdict == Verdict::initial && !(real && truth.time.lo > 0))
+  if (found.verdict == Verdict::initial && (keeps || !(real && truth.time.lo > 0)))
     return finish_initial(c, corners_of(c), found, truth, stats, out);
   const bool later =
       real && truth.time.lo > found.t && (in_.exact_times || found.verdict == Verdict::initial);
@@ -238,6 +239,10 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   // These moved on after their last look.
   if (found.verdict != Verdict::contact || found.checks <= 1 || later)
     found.distance = distance_at(c, found.t);
+  // Corners move by at most 2 rho in the whole step, so far apart is a pair that has touched by time.hi.
+  if (later)
+    found.distance = std::min(
+        found.distance, 2 * corners_of(c).rho * (truth.time.hi - truth.time.lo) * (1 + 0x1p-40) + 0x1p-1074);
   if (found.verdict == Verdict::budget && !real) r.outcome = Outcome::budget;
   r.toi = r.step_limit = found.t;
   if (real || seen_within_separation(c, found)) r.certainty = r.limit_certainty = Certainty::certain;
@@ -291,6 +296,8 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
     if (!next.empty()) r.limit_certainty = next[0].certainty;
     if (!next.empty()) --stats.contacts;
   }
+  if (parting.t > 0 && truth.answer == Answer::yes && truth.time.lo > 0)
+    r.step_limit = std::min(r.step_limit, truth.time.lo);
   report(r, stats, out);
 }
 

@@ -19,8 +19,13 @@ ExactPair NarrowPhase::exact_pair(PairKind kind, const int (&vertices)[4]) const
   return r;
 }
 
-// unknown: not asked, or too dear. Contacts before `from` > 0 do not count.
+// unknown: not asked, or too dear. Contacts before `from` > 0 do not count. Within rounding of touching at the
+// start, doubles cannot tell a contact soon after from parting: those are asked whatever the certainty.
 ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double from) const {
+  if (found.verdict == Verdict::initial && from == 0 && c.input.separation[c.row] == 0) {
+    const auto time = exact_first_contact(exact_pair(c.kind, c.input.vertices[c.row]));
+    return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
+  }
   if (!settles()) return {Answer::unknown, {}};
   const bool complete = settles_completely();
   if (!complete && found.verdict == Verdict::budget)
@@ -36,9 +41,6 @@ ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double
     return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
   }
   const ExactAnswer r = exact_answer(pair, complete ? Effort::complete : Effort::quick);
-  // Within rounding of touching at the start: its outcome is that of doubles, unless all is to be exact.
-  if (!complete && found.verdict == Verdict::initial)
-    return r.answer == Answer::yes && r.time.hi == 0 ? r : ExactAnswer{Answer::unknown, {}};
   // A start that is apart needs its own toi > 0.
   const bool wants_time = found.verdict != Verdict::contact;
   if (r.answer != Answer::yes || !wants_time || r.time.lo == r.time.hi) return r;

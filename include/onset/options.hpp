@@ -19,7 +19,8 @@ enum class Kernel { automatic, scalar, avx2 };
 // separation 0 (docs/exactness.md). conservative: not at all. certify: a certificate in doubles, and where
 // that fails a search in integers of fixed width, microseconds a contact at most: what is proved to be no
 // contact is dropped, what is proved real is marked certain, the rest stays. exact: until it is known, so
-// every contact reported is real for the stored positions.
+// every contact reported is real for the stored positions. A start
+// within rounding of touching is always decided exactly.
 enum class CertaintyLevel { conservative, certify, exact };
 
 struct Options {

@@ -44,12 +44,6 @@ std::string wrong_step(const Query& query, const StepResult& result) {
 
 }  // namespace
 
-// Starts that are apart by less than rounding can tell are taken for touching.
-static bool starts_within_rounding(const Query& query) {
-  return oracle::compare_distance(query, 0, 0x1p-42 * oracle::extent(query)) <= 0 &&
-         oracle::compare_distance(query, 0, 0) > 0;
-}
-
 // f(family, query, options, result) for random queries of every family.
 template <class F>
 static void for_all_steps(F&& f) {
@@ -71,7 +65,6 @@ static void for_all_steps(F&& f) {
 TEST_CASE("the step of a scene of one pair stays before the exact contact", "[property][oracle]") {
   for_all_steps(
       [](const scenes::Family& family, const Query& query, const Options& options, const StepResult& result) {
-        if (starts_within_rounding(query)) return;  // the next case
         const std::string wrong = wrong_step(query, result);
         if (wrong.empty()) return;
         INFO(family.name << " " << to_text(query));
@@ -80,15 +73,4 @@ TEST_CASE("the step of a scene of one pair stays before the exact contact", "[pr
         FAIL_CHECK(wrong);
       });
   SUCCEED();
-}
-
-// Open: such a start may be called separating, and the step then passes a contact that exists in exact
-// arithmetic.
-TEST_CASE("the step stays before the exact contact from starts within rounding too",
-          "[property][oracle][!mayfail]") {
-  int passed_over = 0;
-  for_all_steps([&](const scenes::Family&, const Query& query, const Options&, const StepResult& result) {
-    passed_over += starts_within_rounding(query) && !wrong_step(query, result).empty();
-  });
-  CHECK(passed_over == 0);
 }
