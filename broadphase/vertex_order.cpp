@@ -62,6 +62,7 @@ VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const I
 void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
                       int* ids) {
   const std::size_t count = list.count;
+  if (count == 0) return;  // no ids can be the data() of an empty list, too
   if (kind == Primitive::vertex && !list.ids) {
     std::copy(order.vertex.begin(), order.vertex.end(), ids);
     return;
