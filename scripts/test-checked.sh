@@ -11,6 +11,6 @@ cmake -S . -B build/checked -DONSET_BUILD_APPS=OFF -DONSET_BUILD_TESTS=ON \
   "-DCMAKE_CXX_FLAGS=-O1 -Werror -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS"
 cmake --build build/checked --parallel "$(nproc)"
 
-# Real data is for optimised builds; tests labelled outside build for themselves.
+# Real data is for optimised builds, as are tests labelled long; those labelled outside build for themselves.
 export ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 ONSET_FUZZ="${ONSET_FUZZ:-0.25}"
-env -u ONSET_DATA ctest --test-dir build/checked --output-on-failure --parallel "$(nproc)" -LE outside
+env -u ONSET_DATA ctest --test-dir build/checked --output-on-failure --parallel "$(nproc)" -LE "outside|long"
