@@ -169,8 +169,9 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
   const int positive = bits(apart > zero<V>());
   const int moved = bits(s.t > zero<V>());
   for (int l = 0; l < 4; ++l) {
-    // Near contact at 0, yet certified until later: to be looked at there.
-    if (verdict[l] == int(Verdict::contact) && (moved >> l & 1)) verdict[l] = int(Verdict::stalled);
+    // Near contact at 0, yet certified until later: to be looked at there, if there is a check left.
+    if (verdict[l] == int(Verdict::contact) && (moved >> l & 1))
+      verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::budget);
     if (!(positive >> l & 1)) verdict[l] = int(Verdict::initial);
   }
 }
