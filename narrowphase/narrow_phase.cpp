@@ -206,14 +206,16 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   PairResult r{c.pair, 0, 0, 0, Outcome::contact};
   const double d = found.separation;
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
-  // What stalls goes to the exact decision where that is asked anyway.
-  const bool skips_search = settles_completely() && !inclusion_only;
-  if (!inclusion_only && !skips_search && found.verdict == Verdict::stalled)
-    found = push_on(c, corners_of(c), found);
+  // What stalls is asked first whether it touches at all: that takes less than to find out in doubles.
+  ExactAnswer truth{Answer::unknown, {}};
+  if (!inclusion_only && found.verdict == Verdict::stalled) {
+    truth = settle(c, found, from);
+    if (truth.answer == Answer::unknown) found = push_on(c, corners_of(c), found);
+  }
   stats.checks += found.checks - checked.checks;
   std::int64_t checks = found.checks;
   if (found.verdict == Verdict::free) return;
-  if ((found.verdict == Verdict::stalled && !skips_search) ||
+  if ((found.verdict == Verdict::stalled && truth.answer == Answer::unknown) ||
       (found.verdict == Verdict::budget && inclusion_only)) {
     const InclusionResult searched =
         find_first_inclusion({corners_of(c), found.t, d, found.delta, in_.options.norm == Norm::maximum,
@@ -227,14 +229,13 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
     found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
   }
   if (in_.rounding > 0) note_kept(c, found, stats);
-  const ExactAnswer truth = settle(c, found, from);
+  if (truth.answer == Answer::unknown) truth = settle(c, found, from);
   const bool keeps = in_.keep > 0 || in_.rounding > 0;  // then rounded positions have to stay apart, too
   if (truth.answer == Answer::no && !keeps) return;
   const bool real = truth.answer == Answer::yes;
   if (found.verdict == Verdict::initial && (keeps || !(real && truth.time.lo > 0)))
     return finish_initial(c, corners_of(c), found, truth, stats, out);
-  const bool later =
-      real && truth.time.lo > found.t && (in_.exact_times || found.verdict == Verdict::initial);
+  const bool later = real && truth.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
   if (later) found.t = truth.time.lo;
   // These moved on after their last look.
   if (found.verdict != Verdict::contact || found.checks <= 1 || later)
