@@ -65,24 +65,23 @@ inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm
   return certified<V>(turning, select(reached >= one<V>(), V::all(2), reached));
 }
 
-// The same with the pair's own normal n(s): one cubic for all corners. Each hull step starts where the last one ended, from the
-// whole cubic again, so that errors do not add up; the second costs less than the check that it saves.
-constexpr int kHullSteps = 2;
+// The same with the pair's own normal n(s): one cubic for all corners. A hair before its root, where that is found, its
+// Bernstein coefficients are usually all positive, which takes a contact to its time in one step.
 template <class V, int K>
 inline V certify_normal(const State<V, K>& s) {
   const V margin = (s.f_error + separation_wanted(s) * s.n_largest) * V::all(1 + 0x1p-48);
-  V reached = s.t;
-  auto side = s.t < zero<V>(), progress = side, whole = side;
-  for (int step = 0; step < kHullSteps; ++step) {
-    V x[4] = {s.f[0], s.f[1], s.f[2], s.f[3]};
-    right_part(x, reached);
-    if (step == 0) side = x[0] < zero<V>();
-    for (V& xi : x) xi = select(side, zero<V>() - xi, xi) - margin;
-    const V lambda = hull_step(x);
-    reached = max((reached + lambda * (one<V>() - reached)) * V::all(1 - 0x1p-50), reached);
-    progress = progress | (lambda > zero<V>());
-    whole = whole | (lambda >= one<V>());
-  }
+  V x[4] = {s.f[0], s.f[1], s.f[2], s.f[3]};
+  right_part(x, s.t);
+  const auto side = x[0] < zero<V>();
+  for (V& xi : x) xi = select(side, zero<V>() - xi, xi) - margin;
+  const V chord = chord_step(x);
+  const auto progress = chord > zero<V>(), whole = chord >= one<V>();
+  V root = root_near(x, chord) * V::all(1 - 0x1p-40);
+  root = select(root > zero<V>(), min(root, one<V>()), zero<V>());
+  left_part(x, root);
+  const auto positive = (x[0] > zero<V>()) & (x[1] > zero<V>()) & (x[2] > zero<V>()) & (x[3] > zero<V>());
+  const V step = max(select(positive, root, zero<V>()), chord);
+  const V reached = max((s.t + step * (one<V>() - s.t)) * V::all(1 - 0x1p-50), s.t);
   return certified<V>(progress, select(whole, V::all(2), reached));
 }
 
@@ -191,12 +190,28 @@ inline void restore(const KernelResume* resume, const int (&positions)[4], State
   s.checks = D4::load(checks);
 }
 
-// Up to four pairs set up and checked once; `waiting` marks those that go on.
+// One check of each lane: its verdict, or -1 to go on.
+template <int K>
+inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) {
+  D4 w[3], dist;
+  look(s, s.t, pairs.maximum_norm, w, dist);
+  judge(s, advance(s, w, dist, pairs.maximum_norm, false), pairs, verdict);
+}
+
+// Up to four pairs set up and checked twice, which decides most of them; `waiting` marks those that go on.
 template <int K>
 struct Pending {
   State<D4, K> state;
   int owner[4];
   int waiting = 0;
+
+  void settle(const int (&verdict)[4], KernelResult* results) {
+    for (int l = 0; l < 4; ++l) {
+      if (!(waiting >> l & 1) || verdict[l] < 0) continue;
+      report(state, l, Verdict(verdict[l]), results[owner[l]]);
+      waiting &= ~(1 << l);
+    }
+  }
 };
 template <int K>
 inline void refill(const KernelPairs& pairs, const int* subset, int first, int count, const KernelResume* resume,
@@ -205,14 +220,15 @@ inline void refill(const KernelPairs& pairs, const int* subset, int first, int c
   for (int l = 0; l < 4; ++l) {
     pending.owner[l] = first + l < count ? first + l : count - 1;
     rows[l] = subset[pending.owner[l]];
+    pending.waiting |= int(first + l < count) << l;
   }
   set_up(pairs, rows, pending.state);
-  if (resume != nullptr) restore(resume, pending.owner, pending.state);
-  else first_check(pairs, pending.state, verdict);
-  for (int l = 0; l < 4 && first + l < count; ++l) {
-    if (verdict[l] < 0) pending.waiting |= 1 << l;
-    else report(pending.state, l, Verdict(verdict[l]), results[first + l]);
-  }
+  if (resume != nullptr) return restore(resume, pending.owner, pending.state);
+  first_check(pairs, pending.state, verdict);
+  pending.settle(verdict, results);
+  if (pending.waiting == 0) return;
+  check(pairs, pending.state, verdict);
+  pending.settle(verdict, results);
 }
 
 template <int K>
@@ -241,11 +257,8 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
       ++active;
     }
     if (active == 0) return;
-    D4 w[3], dist;
-    look(lanes, lanes.t, pairs.maximum_norm, w, dist);
-    const Check<D4, K> check = advance(lanes, w, dist, pairs.maximum_norm, false);
     int verdict[4];
-    judge(lanes, check, pairs, verdict);
+    check(pairs, lanes, verdict);
     for (int l = 0; l < 4; ++l)
       if (owner[l] >= 0 && verdict[l] >= 0) {
         report(lanes, l, Verdict(verdict[l]), results[owner[l]]);

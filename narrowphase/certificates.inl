@@ -64,31 +64,39 @@ inline V first_root(V x0, V x1, V x2) {
   return select(whole, one<V>(), L);
 }
 
-// Subdivides the cubic with Bernstein coefficients f on [0,1] to [t,1].
+// Subdivides the cubic with Bernstein coefficients f on [0,1] to [t,1], and to [0,t].
 template <class V>
 inline void right_part(V (&f)[4], V t) {
   for (int level = 3; level > 0; --level)
     for (int i = 0; i < level; ++i) f[i] = lerp(f[i], f[i + 1], t);
 }
-
-// How far, as a fraction of its interval, a polynomial with Bernstein coefficients x stays positive: its graph lies in the hull
-// of the points (i/3, x_i), and the first crossing of that hull with zero is on a segment between a positive and a
-// non-positive point, over all such pairs: from i, on the steepest. At most 9 roundings: 2^-49 is taken off. 1 for the whole, 0
-// for nothing.
 template <class V>
-inline V hull_step(const V (&x)[4]) {
-  const V over[4] = {one<V>(), one<V>(), V::all(0.5), V::all(1.0 / 3)};
-  V lambda = V::all(3);
-  for (int i = 0; i < 3; ++i) {
-    V steepest = zero<V>();
-    for (int j = i + 1; j < 4; ++j)
-      steepest = max(select(x[j] <= zero<V>(), (x[i] - x[j]) * over[j - i], zero<V>()), steepest);
-    const auto crosses = (x[i] > zero<V>()) & (steepest > zero<V>());
-    const V crossing = V::all(i) + x[i] / select(crosses, steepest, one<V>());
-    lambda = min(select(crosses, crossing, V::all(3)), lambda);
-  }
+inline void left_part(V (&f)[4], V t) {
+  for (int level = 1; level < 4; ++level)
+    for (int i = 3; i >= level; --i) f[i] = lerp(f[i - 1], f[i], t);
+}
+
+// How far, as a fraction of its interval, a cubic with Bernstein coefficients x certainly stays positive: it is above the
+// steepest chord from x_0 to a point (i/3, x_i), since its value at s is the sum of B_i(s) x_i with the sum of B_i(s) i/3 = s.
+// 6 roundings: 2^-49 is taken off. 1 for the whole, 0 for nothing.
+template <class V>
+inline V chord_step(const V (&x)[4]) {
+  const V steepest = max(max(x[0] - x[1], V::all(0.5) * (x[0] - x[2])), V::all(1.0 / 3) * (x[0] - x[3]));
   const auto whole = (x[1] > zero<V>()) & (x[2] > zero<V>()) & (x[3] > zero<V>());
-  lambda = select(whole, one<V>(), lambda * V::all((1.0 / 3) * (1 - 0x1p-49)));
+  const V crossing = x[0] / select(whole, one<V>(), steepest) * V::all((1.0 / 3) * (1 - 0x1p-49));
   const auto finite = (x[0] == x[0]) & (x[1] == x[1]) & (x[2] == x[2]) & (x[3] == x[3]);
-  return select(finite & (x[0] > zero<V>()), lambda, zero<V>());
+  return select(finite & (x[0] > zero<V>()), select(whole, one<V>(), crossing), zero<V>());
+}
+
+// Newton's method for the root of that cubic, from `start` on: any result is safe to use.
+constexpr int kNewtonSteps = 5;
+template <class V>
+inline V root_near(const V (&x)[4], V start) {
+  const V three = V::all(3), c1 = three * (x[1] - x[0]), c2 = three * ((x[0] - x[1]) + (x[2] - x[1]));
+  const V c3 = (x[3] - x[0]) - three * (x[2] - x[1]);
+  const V c2_twice = c2 + c2, c3_thrice = three * c3;
+  V s = start;
+  for (int i = 0; i < kNewtonSteps; ++i)
+    s = s - (((c3 * s + c2) * s + c1) * s + x[0]) / ((c3_thrice * s + c2_twice) * s + c1);
+  return s;
 }

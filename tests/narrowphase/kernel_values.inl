@@ -37,6 +37,7 @@ void double_values(const KernelPairs& pairs, int row, const tests::ValuesWanted&
   }
   V f[4] = {s.f[0], s.f[1], s.f[2], s.f[3]};
   right_part(f, t);
+  left_part(f, V::all(in.u));
   for (int i = 0; i < 4; ++i) out.f[i] = first(f[i]);
   evaluate(c, V::all(in.u), V::all(in.v), point);
   look(s, t, false, direction, dist);

@@ -159,8 +159,8 @@ double moving_ratio(Compute values, const Input& in) {
   return r;
 }
 
-// Bernstein coefficients of n(s).c(s) on [t, 1], by subdivision.
-void exact_cubic(const ExactPair& pair, const Rational& t, Rational (&f)[4]) {
+// Bernstein coefficients of n(s).c(s) on [t, 1], then on the first share u of that, by subdivision.
+void exact_cubic(const ExactPair& pair, const Rational& t, const Rational& u, Rational (&f)[4]) {
   const auto n = [&](int i, int j) { return cross(pair.e[i][0], pair.e[j][1]); };
   const RationalVector mixed = plus(n(0, 1), n(1, 0)), &c0 = pair.c[0][0], &c1 = pair.c[1][0];
   f[0] = dot(n(0, 0), c0);
@@ -169,12 +169,14 @@ void exact_cubic(const ExactPair& pair, const Rational& t, Rational (&f)[4]) {
   f[3] = dot(n(1, 1), c1);
   for (int level = 3; level > 0; --level)
     for (int i = 0; i < level; ++i) f[i] = between(f[i], f[i + 1], t);
+  for (int level = 1; level < 4; ++level)
+    for (int i = 3; i >= level; --i) f[i] = between(f[i - 1], f[i], u);
 }
 double cubic_ratio(Compute values, const Input& in) {
   const KernelValues v = compute(values, in);
   const ExactPair pair(in.query, v.unit);
   Rational f[4];
-  exact_cubic(pair, in.wanted.t, f);
+  exact_cubic(pair, in.wanted.t, in.wanted.u, f);
   double r = 0;
   for (int i = 0; i < 4; ++i) r = std::max(r, ratio(Rational(v.f[i]) - f[i], v.f_error));
   return r;
