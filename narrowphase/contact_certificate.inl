@@ -21,6 +21,7 @@ constexpr double kInsideError = 32 * kU, kInsideSlope = 8.25;
 template <class V>
 struct RelativeMotion {
   V q[2][3], a[2][3], b[2][3];
+  V scale;  // a power of two
 };
 
 template <int K>
@@ -36,7 +37,7 @@ inline void set_relative(const KernelPairs& pairs, const int* rows, RelativeMoti
       r.b[end][i] = K == 4 ? x[2][i] - x[3][i] : x[3][i] - x[1][i];
       largest = max(max(abs(r.q[end][i]), abs(r.a[end][i])), max(abs(r.b[end][i]), largest));
     }
-  const D4 scale = inverse_power_of_two(largest);
+  const D4 scale = r.scale = inverse_power_of_two(largest);
   for (int end = 0; end < 2; ++end)
     for (int i = 0; i < 3; ++i) {
       r.q[end][i] = r.q[end][i] * scale;

@@ -5,6 +5,7 @@
 
 #include "base/orientation.hpp"
 #include "narrowphase/corners.hpp"
+#include "narrowphase/kernels.hpp"
 #include "narrowphase/vec.hpp"
 
 namespace onset {
@@ -216,6 +217,32 @@ ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array
   r.speed = dot(n, moved) * corners.unit;
   r.degenerate = !plane.resolved || !near.inside;
   return r;
+}
+
+void contact_frames(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
+                    const double* t, const bool* parting, std::size_t count, ContactFrame* frames) {
+  const KernelTable& kernels = kernels_for(kernel);
+  const auto of_kind = kind == PairKind::vertex_face ? kernels.frames_vertex_face : kernels.frames_edge_edge;
+  constexpr std::size_t kAtOnce = 64;
+  KernelFrame found[kAtOnce];
+  KernelPairs pairs{};
+  pairs.x = motion.x.data();
+  for (std::size_t first = 0; first < count; first += kAtOnce) {
+    pairs.vertices = reinterpret_cast<const int(*)[4]>(vertices + first);
+    pairs.count = int(std::min(kAtOnce, count - first));
+    of_kind(pairs, t + first, found);
+    for (int i = 0; i < pairs.count; ++i) {
+      const KernelFrame& f = found[i];
+      const std::size_t row = first + std::size_t(i);
+      ContactFrame& r = frames[row];
+      if (!f.ordinary || parting[row]) {
+        r = contact_frame(kind, motion, vertices[row], t[row], parting[row]);
+        continue;
+      }
+      r = {{f.weight[0], f.weight[1], f.weight[2], f.weight[3]}, {}, f.gap, f.speed, false};
+      for (std::size_t a = 0; a < 3; ++a) r.normal[std::size_t(motion.axes[a])] = f.normal[a];
+    }
+  }
 }
 
 }  // namespace onset

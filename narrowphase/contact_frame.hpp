@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "base/motion.hpp"
+#include "onset/options.hpp"
 
 namespace onset {
 
@@ -26,5 +28,10 @@ struct ContactFrame {
 // rho the pair's largest corner difference.
 ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
                            bool parting);
+
+// The same for `count` pairs of one kind, ordinary ones in lanes: frames[i] of vertices[i] at t[i].
+// `parting[i]`: as above.
+void contact_frames(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
+                    const double* t, const bool* parting, std::size_t count, ContactFrame* frames);
 
 }  // namespace onset

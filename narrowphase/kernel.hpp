@@ -49,6 +49,13 @@ struct KernelResume {
   double patience;  // crawling checks allowed beyond the usual ones
 };
 
+// Where a pair touches, in the order of axes of the motion. Only where it is ordinary (contact_frame.inl) do the rest hold.
+struct KernelFrame {
+  double weight[4], normal[3];
+  double gap, speed;  // model length
+  bool ordinary;
+};
+
 struct KernelTable {
   const char* name;
   // Writes the indices of the pairs that single precision cannot certify as apart on the whole step; returns
@@ -64,6 +71,9 @@ struct KernelTable {
   // Sets touched_by of those of results[0..count), as advance left them, that are in contact; separation 0.
   void (*certify_vertex_face)(const KernelPairs&, const int* subset, int count, KernelResult* results);
   void (*certify_edge_edge)(const KernelPairs&, const int* subset, int count, KernelResult* results);
+  // Contact points, normals, gaps and speeds of pairs 0..count at the times t; separations are not read.
+  void (*frames_vertex_face)(const KernelPairs&, const double* t, KernelFrame*);
+  void (*frames_edge_edge)(const KernelPairs&, const double* t, KernelFrame*);
   // The direction that separates pair `row` best at time t; returns a scaled upper bound of the distance then.
   double (*look_vertex_face)(const KernelPairs&, int row, double t, double (&w)[3]);
   double (*look_edge_edge)(const KernelPairs&, int row, double t, double (&w)[3]);

@@ -11,6 +11,8 @@ const KernelTable& avx2_kernels() {
                                  avx2::advance_edge_edge,
                                  avx2::certify_vertex_face,
                                  avx2::certify_edge_edge,
+                                 avx2::frames_vertex_face,
+                                 avx2::frames_edge_edge,
                                  avx2::look_vertex_face,
                                  avx2::look_edge_edge};
   return table;

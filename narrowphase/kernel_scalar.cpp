@@ -11,6 +11,8 @@ const KernelTable& scalar_kernels() {
                                  scalar::advance_edge_edge,
                                  scalar::certify_vertex_face,
                                  scalar::certify_edge_edge,
+                                 scalar::frames_vertex_face,
+                                 scalar::frames_edge_edge,
                                  scalar::look_vertex_face,
                                  scalar::look_edge_edge};
   return table;

@@ -22,6 +22,8 @@ namespace {
 
 #include "narrowphase/contact_certificate.inl"
 
+#include "narrowphase/contact_frame.inl"
+
 int cull_vertex_face(const KernelPairs& pairs, int* survivors) { return cull_all<3>(pairs, survivors); }
 int cull_edge_edge(const KernelPairs& pairs, int* survivors) { return cull_all<4>(pairs, survivors); }
 void advance_vertex_face(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
@@ -38,6 +40,8 @@ void certify_vertex_face(const KernelPairs& pairs, const int* subset, int count,
 void certify_edge_edge(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
   certify_all<4>(pairs, subset, count, results);
 }
+void frames_vertex_face(const KernelPairs& pairs, const double* t, KernelFrame* frames) { frames_all<3>(pairs, t, frames); }
+void frames_edge_edge(const KernelPairs& pairs, const double* t, KernelFrame* frames) { frames_all<4>(pairs, t, frames); }
 double look_vertex_face(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<3>(pairs, row, t, w); }
 double look_edge_edge(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<4>(pairs, row, t, w); }
 

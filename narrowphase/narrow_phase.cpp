@@ -4,10 +4,10 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/dispatch.hpp"
 #include "narrowphase/inclusion.hpp"
 #include "narrowphase/initial.hpp"
 #include "narrowphase/interval_certificate.hpp"
+#include "narrowphase/kernels.hpp"
 
 namespace onset {
 namespace {
@@ -21,14 +21,6 @@ constexpr double kSharpest = 0x1p-38;
 // With fewer checks than this a pair may be reported far from contact, and a horizon could hide it: then it
 // is not used.
 constexpr std::int64_t kChecksForHorizon = 1000;
-
-const KernelTable& kernels_for(Kernel requested) {
-#ifdef ONSET_HAVE_AVX2
-  if (resolve_kernel(requested) == Kernel::avx2) return avx2_kernels();
-#endif
-  (void)requested;
-  return scalar_kernels();
-}
 
 double power_of_two_near_one_over(double x) {
   return x > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(x)) : 0x1p1000;

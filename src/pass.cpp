@@ -16,6 +16,22 @@ std::uint64_t order(const FoundPair& f) {
          std::uint64_t(f.result.pair.b);
 }
 
+// Sixteen bytes a pair are moved about instead of sixty-four.
+std::vector<FoundPair> sorted(const std::vector<FoundPair>& found) {
+  struct Place {
+    std::uint64_t order;
+    std::size_t at;
+  };
+  std::vector<Place> places(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) places[i] = {order(found[i]), i};
+  parallel_sort(places.begin(), places.end(),
+                [](const Place& x, const Place& y) { return x.order < y.order; });
+  std::vector<FoundPair> r;
+  r.reserve(found.size());
+  for (const Place& p : places) r.push_back(found[p.at]);
+  return r;
+}
+
 // With a budget of checks, work comes in waves of so many blocks: all that a wave does follows from those
 // before it.
 constexpr std::size_t kFirstWave = 16, kLargestWave = 1024;
@@ -55,10 +71,7 @@ class Pass {
   }
 
   std::vector<FoundPair> take() {
-    if (keep_ == Keep::all)
-      parallel_sort(found_.begin(), found_.end(),
-                    [](const FoundPair& x, const FoundPair& y) { return order(x) < order(y); });
-    return std::move(found_);
+    return keep_ == Keep::all ? sorted(found_) : std::move(found_);
   }
 
  private:

@@ -1,0 +1,15 @@
+// From the pairs that a pass found to the rows of an active set.
+#pragma once
+
+#include <vector>
+
+#include "base/motion.hpp"
+#include "src/pass.hpp"
+
+namespace onset {
+
+// Row i of `set` is found[i]; counts the contacts of each kind.
+void fill_rows(const Mesh& mesh, const Motion& motion, Kernel kernel, const std::vector<FoundPair>& found,
+               ActiveSet& set);
+
+}  // namespace onset
