@@ -88,6 +88,21 @@ inline void transpose(const double* p0, const double* p1, const double* p2, cons
   xyz[1].v = _mm256_permute2f128_pd(ab_hi, cd_hi, 0x20);
   xyz[2].v = _mm256_permute2f128_pd(ab_lo, cd_lo, 0x31);
 }
+// The first seven of the eight floats at each p[l], one p a lane.
+inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
+  const auto both = [&](int l, int at) {  // four floats of lane l and of lane l + 4
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[l] + at)), _mm_loadu_ps(p[l + 4] + at), 1);
+  };
+  for (int half = 0; half < 2; ++half) {
+    const __m256 a = both(0, 4 * half), b = both(1, 4 * half), c = both(2, 4 * half), d = both(3, 4 * half);
+    const __m256d ab_lo = _mm256_castps_pd(_mm256_unpacklo_ps(a, b)), cd_lo = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
+    const __m256d ab_hi = _mm256_castps_pd(_mm256_unpackhi_ps(a, b)), cd_hi = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
+    out[4 * half].v = _mm256_castpd_ps(_mm256_unpacklo_pd(ab_lo, cd_lo));
+    out[4 * half + 1].v = _mm256_castpd_ps(_mm256_unpackhi_pd(ab_lo, cd_lo));
+    out[4 * half + 2].v = _mm256_castpd_ps(_mm256_unpacklo_pd(ab_hi, cd_hi));
+    if (half == 0) out[3].v = _mm256_castpd_ps(_mm256_unpackhi_pd(ab_hi, cd_hi));
+  }
+}
 // The power of two that brings a positive x into [1, 2) (a subnormal x: into [2^-51, 2); 0 gives 2^1023).
 inline D4 inverse_power_of_two(D4 x) {
   const __m256i exponent = _mm256_and_si256(_mm256_castpd_si256(x.v), _mm256_set1_epi64x(0x7ff0000000000000));
@@ -198,6 +213,10 @@ inline D4 inverse_power_of_two(D4 x) {
     __builtin_memcpy(&r.v[i], &b, 8);
   }
   return r;
+}
+inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
+  for (int i = 0; i < 7; ++i)
+    for (int l = 0; l < 8; ++l) out[i].v[l] = p[l][i];
 }
 inline F8 to_float(const D4& lo, const D4& hi) {
   F8 r;

@@ -14,35 +14,67 @@ struct FloatPairs {
 
 // Only [0, horizon] matters: the far end moves there. Certified to stay beyond d + reach until then, a pair cannot be reported
 // earlier, so the limiting pair is the same as without a horizon. (The lerp's 3u is far below float's rounding.)
-template <int K>
-inline void cut_short(D4 (&c)[2][K][3], D4 horizon) {
+template <class V, int K>
+inline void cut_short(V (&c)[2][K][3], V horizon) {
   for (int k = 0; k < K; ++k)
     for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], horizon);
 }
 
+inline F8 float_separation(const KernelPairs& pairs, const int* rows) {
+  const double beyond = pairs.horizon < 1 ? pairs.reach : 0;
+  double of_pair[8];
+  for (int l = 0; l < 8; ++l) of_pair[l] = (pairs.separation[rows[l]] + pairs.rounding + beyond) * pairs.scale;
+  return to_float(D4::load(of_pair), D4::load(of_pair + 4)) * F8::all(1 + 0x1p-22f);
+}
+
+// Upper bound, but for rounding, of |R|, R the largest components of corners.
+template <int K>
+inline F8 rho_of(const F8 (&c)[2][K][3]) {
+  F8 R[3] = {zero<F8>(), zero<F8>(), zero<F8>()};
+  for (int end = 0; end < 2; ++end)
+    for (int k = 0; k < K; ++k)
+      for (int a = 0; a < 3; ++a) R[a] = max(abs(c[end][k][a]), R[a]);
+  return sqrt(dot(R, R));
+}
+
 template <int K>
 inline void float_corners(const KernelPairs& pairs, const int* rows, FloatPairs<K>& out) {
-  D4 lanes[2][2][K][3], separation[2];
+  using V = F8;
+  D4 lanes[2][2][K][3];
   const D4 scale = D4::all(pairs.scale);
-  const double beyond = pairs.horizon < 1 ? pairs.reach : 0;
   for (int half = 0; half < 2; ++half) {
     Points<D4> p;
     gather(pairs, rows + 4 * half, p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
     if (pairs.horizon < 1) cut_short(lanes[half], D4::all(pairs.horizon));
-    double of_pair[4];
-    for (int l = 0; l < 4; ++l) of_pair[l] = pairs.separation[rows[4 * half + l]] + pairs.rounding + beyond;
-    separation[half] = D4::load(of_pair) * scale;
   }
-  F8 R[3] = {zero<F8>(), zero<F8>(), zero<F8>()};
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < K; ++k)
-      for (int a = 0; a < 3; ++a) {
-        out.c[end][k][a] = to_float(lanes[0][end][k][a] * scale, lanes[1][end][k][a] * scale);
-        R[a] = max(abs(out.c[end][k][a]), R[a]);
-      }
-  out.d = to_float(separation[0], separation[1]) * F8::all(1 + 0x1p-22f);
-  out.error = F8::all(7 * 0x1p-24f) * sqrt(dot(R, R)) * F8::all(1 + 0x1p-20f) + F8::all(0x1p-140f);
+      for (int a = 0; a < 3; ++a) out.c[end][k][a] = to_float(lanes[0][end][k][a] * scale, lanes[1][end][k][a] * scale);
+  out.d = float_separation(pairs, rows);
+  out.error = V::all(7 * 0x1p-24f) * rho_of(out.c) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
+}
+
+// The same from rounded positions. The difference of two errs by what these do, and by u of itself in place of the rounding to
+// float above; the lerp to the horizon adds 3u. Whatever is added up then, the vertices' errors weigh no more than |w|.
+template <int K>
+inline void rounded_corners(const KernelPairs& pairs, const int* rows, FloatPairs<K>& out) {
+  using V = F8;
+  V p[2][4][3], of_vertex[4];
+  for (int i = 0; i < 4; ++i) {
+    const float* row[8];
+    for (int l = 0; l < 8; ++l) row[l] = pairs.rounded + static_cast<long long>(pairs.vertices[rows[l]][i]) * 8;
+    V x[7];
+    transpose(row, x);
+    for (int a = 0; a < 3; ++a) p[0][i][a] = x[a], p[1][i][a] = x[4 + a];
+    of_vertex[i] = x[3];
+  }
+  for (int end = 0; end < 2; ++end) corners_of(p[end], out.c[end]);
+  if (pairs.horizon < 1) cut_short(out.c, V::all(static_cast<float>(pairs.horizon)));
+  out.d = float_separation(pairs, rows);
+  const V of_positions = K == 3 ? of_vertex[0] + max(of_vertex[1], max(of_vertex[2], of_vertex[3]))
+                                : max(of_vertex[0], of_vertex[1]) + max(of_vertex[2], of_vertex[3]);
+  out.error = (V::all(10 * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
 
 // Whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: the Bernstein coefficients
@@ -124,7 +156,8 @@ template <int K>
 inline int cull_eight(const KernelPairs& pairs, const int* rows, bool refined) {
   using V = F8;
   FloatPairs<K> s;
-  float_corners(pairs, rows, s);
+  if (!refined && pairs.rounded != nullptr) rounded_corners(pairs, rows, s);
+  else float_corners(pairs, rows, s);
   V d = s.d;
   if (pairs.keep > 0) d = d + V::all(static_cast<float>(pairs.keep) * (1 + 0x1p-20f)) * initial_gap(s.c[0], s.error);
   V w0[3], w1[3];

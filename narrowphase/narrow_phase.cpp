@@ -32,15 +32,22 @@ double thickness_of(const MeshData& mesh, const int* first, const int* last) {
   return r;
 }
 
+void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) {
+  if (kind == PairKind::vertex_face) {
+    const auto& f = mesh.faces[std::size_t(p.b)];
+    v[0] = p.a, v[1] = f[0], v[2] = f[1], v[3] = f[2];
+  } else {
+    const auto &e = mesh.edges[std::size_t(p.a)], &g = mesh.edges[std::size_t(p.b)];
+    v[0] = e[0], v[1] = e[1], v[2] = g[0], v[3] = g[1];
+  }
+}
+
 }  // namespace
 
 std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair p) {
-  if (kind == PairKind::vertex_face) {
-    const auto& f = mesh.faces[std::size_t(p.b)];
-    return {p.a, f[0], f[1], f[2]};
-  }
-  const auto &e = mesh.edges[std::size_t(p.a)], &g = mesh.edges[std::size_t(p.b)];
-  return {e[0], e[1], g[0], g[1]};
+  std::array<int, 4> v;
+  put_vertices(mesh, kind, p, v.data());
+  return v;
 }
 
 void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
@@ -68,25 +75,30 @@ void NarrowPhaseStats::note_checks(IdPair pair, std::int64_t n) {
 NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
     : in_(input),
       kernels_(&kernels_for(input.options.kernel)),
-      scale_(power_of_two_near_one_over(input.extent)) {}
+      scale_(power_of_two_near_one_over(input.extent)) {
+  if (input.for_many) rounded_ = round_positions(input.motion, scale_);
+}
 
 bool NarrowPhase::uses_horizon() const { return in_.options.max_checks >= kChecksForHorizon; }
 
 void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
                           NarrowPhaseScratch& scratch) const {
   scratch.vertices.resize(4 * count);
-  scratch.separation.resize(count);
   scratch.survivors.resize(count);
+  if (kind == PairKind::vertex_face)
+    for (std::size_t i = 0; i < count; ++i)
+      put_vertices(in_.mesh, PairKind::vertex_face, pairs[i], &scratch.vertices[4 * i]);
+  else
+    for (std::size_t i = 0; i < count; ++i)
+      put_vertices(in_.mesh, PairKind::edge_edge, pairs[i], &scratch.vertices[4 * i]);
+  scratch.separation.assign(count, in_.options.min_separation);
+  if (in_.mesh.thickness.empty()) return;
   const int first_side = kind == PairKind::vertex_face ? 1 : 2;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::array<int, 4> v = pair_vertices(in_.mesh, kind, pairs[i]);
-    std::copy(v.begin(), v.end(), scratch.vertices.begin() + std::ptrdiff_t(4 * i));
-    double d = in_.options.min_separation;
-    if (!in_.mesh.thickness.empty())  // two sums: rounded up
-      d = (d + thickness_of(in_.mesh, v.data(), v.data() + first_side) +
-           thickness_of(in_.mesh, v.data() + first_side, v.data() + 4)) *
-          (1 + 0x1p-51);
-    scratch.separation[i] = d;
+  for (std::size_t i = 0; i < count; ++i) {  // two sums: rounded up
+    const int* v = &scratch.vertices[4 * i];
+    scratch.separation[i] = (in_.options.min_separation + thickness_of(in_.mesh, v, v + first_side) +
+                             thickness_of(in_.mesh, v + first_side, v + 4)) *
+                            (1 + 0x1p-51);
   }
 }
 
@@ -97,6 +109,7 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
   // tolerance to use.
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
   return {in_.motion.x.data(),
+          rounded_.data(),
           reinterpret_cast<const int(*)[4]>(scratch.vertices.data()),
           scratch.separation.data(),
           int(count),
@@ -227,7 +240,8 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   const bool real = truth.answer == Answer::yes;
   if (found.verdict == Verdict::initial && (keeps || !(real && truth.time.lo > 0)))
     return finish_initial(c, corners_of(c), found, truth, stats, out);
-  const bool later = real && truth.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
+  const bool later =
+      real && truth.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
   if (later) found.t = truth.time.lo;
   // These moved on after their last look.
   if (found.verdict != Verdict::contact || found.checks <= 1 || later)

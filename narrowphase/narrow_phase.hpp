@@ -9,6 +9,7 @@
 #include "base/pair_sink.hpp"
 #include "narrowphase/corners.hpp"
 #include "narrowphase/exact.hpp"
+#include "narrowphase/float_positions.hpp"
 #include "narrowphase/kernel.hpp"
 #include "onset/options.hpp"
 
@@ -24,6 +25,7 @@ struct NarrowPhaseInput {
       0;  // share of each pair's initial gap beyond its separation that it must keep as well, in [0, 1)
   double rounding = 0;       // model length: kept too, up to half of what that share leaves
   bool exact_times = false;  // CertaintyLevel::exact: toi and toi_hi of every contact are adjacent doubles
+  bool for_many = false;     // pairs: worth a pass over all vertices first
 };
 
 // A pair that is not certified free.
@@ -42,8 +44,8 @@ struct PairResult {
 struct NarrowPhaseStats {
   std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, budget = 0, checks = 0,
                most_checks = 0;
-  IdPair worst{-1, -1};                         // the first pair with most_checks
-  std::array<std::int64_t, 16> histogram{};     // of checks: Stats::checks_histogram
+  IdPair worst{-1, -1};                      // the first pair with most_checks
+  std::array<std::int64_t, 16> histogram{};  // of checks: Stats::checks_histogram
   double achieved_tolerance = 0;
   // The least share of its gap, net of `rounding`, that a reported pair is sure to keep, and the pair; < 0:
   // not even its separation. 1 where all keep what was asked for.
@@ -109,6 +111,7 @@ class NarrowPhase {
   NarrowPhaseInput in_;
   const KernelTable* kernels_;
   double scale_;
+  AlignedArray<float> rounded_;  // for_many: the motion in single precision
 };
 
 std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair pair);

@@ -43,9 +43,8 @@ void fill_frames(const Motion& motion, Kernel kernel, std::size_t first, std::si
 
 void fill_rows(const Mesh& mesh, const Motion& motion, Kernel kernel, const std::vector<FoundPair>& found,
                ActiveSet& set) {
-  const auto of_faces = std::partition_point(found.begin(), found.end(), [](const FoundPair& f) {
-    return f.kind == PairKind::vertex_face;
-  });
+  const auto of_faces = std::partition_point(
+      found.begin(), found.end(), [](const FoundPair& f) { return f.kind == PairKind::vertex_face; });
   const auto faces = std::size_t(of_faces - found.begin());
   set.stats.contacts = {std::int64_t(faces), std::int64_t(found.size() - faces)};
   resize(set, found.size());

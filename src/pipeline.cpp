@@ -67,7 +67,7 @@ PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep
   const double begun = scene.clock.seconds();
   const bool exact_times = options.certainty == CertaintyLevel::exact && keep != Keep::all;
   const NarrowPhase narrow(
-      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times});
+      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times, true});
   const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
   const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, stats) : 1;
   PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "narrowphase/float_positions.hpp"
 #include "narrowphase/kernel.hpp"
 #include "tests/scenes/query.hpp"
 
@@ -27,6 +28,16 @@ class KernelBatch {
     separation_.push_back(separation);
   }
 
+  // From now on pairs() has rounded positions, too; after the last add().
+  void round() {
+    Motion motion;
+    motion.num_vertices = 4 * count();
+    motion.x = AlignedArray<double>(x_.size());
+    std::copy(x_.begin(), x_.end(), motion.x.data());
+    const AlignedArray<float> rows = round_positions(motion, scale_);
+    rounded_.assign(rows.data(), rows.data() + rows.size());
+  }
+
   PairKind kind() const { return kind_; }
   int count() const { return int(ids_.size()); }
   double separation(int row) const { return separation_[std::size_t(row)]; }
@@ -36,6 +47,7 @@ class KernelBatch {
     KernelPairs p{};
     p.sharpest = 2;
     p.x = x_.data();
+    p.rounded = rounded_.empty() ? nullptr : rounded_.data();
     p.vertices = reinterpret_cast<const int(*)[4]>(ids_.data());
     p.separation = separation_.data();
     p.count = count();
@@ -61,6 +73,7 @@ class KernelBatch {
   PairKind kind_;
   double largest_ = 0, scale_ = 1;
   std::vector<double> x_;
+  std::vector<float> rounded_;
   std::vector<std::array<int, 4>> ids_;
   std::vector<double> separation_;
 };
@@ -69,12 +82,13 @@ class KernelBatch {
 struct KernelsOfKind {
   decltype(KernelTable::cull_vertex_face) cull;
   decltype(KernelTable::advance_vertex_face) advance;
+  decltype(KernelTable::frames_vertex_face) frames;
   decltype(KernelTable::look_vertex_face) look;
 };
 inline KernelsOfKind of_kind(const KernelTable& table, PairKind kind) {
   if (kind == PairKind::vertex_face)
-    return {table.cull_vertex_face, table.advance_vertex_face, table.look_vertex_face};
-  return {table.cull_edge_edge, table.advance_edge_edge, table.look_edge_edge};
+    return {table.cull_vertex_face, table.advance_vertex_face, table.frames_vertex_face, table.look_vertex_face};
+  return {table.cull_edge_edge, table.advance_edge_edge, table.frames_edge_edge, table.look_edge_edge};
 }
 
 }  // namespace onset::tests
