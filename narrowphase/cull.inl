@@ -151,6 +151,31 @@ inline V initial_gap(const V (&c)[K][3], V error) {  // the point found errs by 
   return (sqrt(nearest_on_boundary(c).f2) + V::all(2) * error) * V::all(1 + 0x1p-19f);
 }
 
+// Whether the pair's boxes, moving linearly from end to end, are apart on some axis at every time, not always the same one:
+// long steps past one another. On axis a the pair is within reach m = d + error only where (1-t) s0 + t s1 >= 0, with
+// s = max_k c_k + m, and with s = m - min_k c_k; between two ends of opposite sign that begins or ends at s0 / (s0 - s1). Signs are
+// exact, each root is known within 6u: 2^-20 = 16u is taken off.
+template <int K>
+inline MaskF8 never_together(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
+  using V = F8;
+  V begin = zero<V>(), end = one<V>();
+  for (int a = 0; a < 3; ++a) {
+    V most[2] = {c0[0][a], c1[0][a]}, least[2] = {c0[0][a], c1[0][a]};
+    for (int k = 1; k < K; ++k) {
+      most[0] = max(c0[k][a], most[0]), most[1] = max(c1[k][a], most[1]);
+      least[0] = min(c0[k][a], least[0]), least[1] = min(c1[k][a], least[1]);
+    }
+    const V s[2][2] = {{most[0] + m, most[1] + m}, {m - least[0], m - least[1]}};
+    for (const auto& [s0, s1] : s) {
+      const auto out0 = s0 < zero<V>(), out1 = s1 < zero<V>();
+      const V root = s0 / (s0 - s1);
+      begin = max(select(out0, select(out1, V::all(2), root), zero<V>()), begin);
+      end = min(select(out1, root, one<V>()), end);
+    }
+  }
+  return begin * V::all(1 - 0x1p-20f) > end * V::all(1 + 0x1p-20f);
+}
+
 // The mask of pairs that are apart throughout. refined: in two halves, each with its own turning direction.
 template <int K>
 inline int cull_eight(const KernelPairs& pairs, const int* rows, bool refined) {
@@ -173,7 +198,8 @@ inline int cull_eight(const KernelPairs& pairs, const int* rows, bool refined) {
   cheap_direction(middle, wm);
   normalise(wm);
   const V mm = demand(wm, d, s.error, pairs.maximum_norm);
-  return bits(separates(s.c[0], middle, w0, wm, m0, mm) & separates(middle, s.c[1], wm, w1, mm, m1));
+  return bits((separates(s.c[0], middle, w0, wm, m0, mm) & separates(middle, s.c[1], wm, w1, mm, m1)) |
+              never_together(s.c[0], s.c[1], d + s.error));
 }
 
 // Writes those of rows[0..count) that are not apart to kept (which may be rows itself); returns their number.
