@@ -28,6 +28,10 @@ class FixedCache {
     slots_[slot].swap(object);  // the old one goes after the lock
   }
 
+  void clear() {
+    for (Slot slot = 0; slot < slots_.size(); ++slot) put(slot, nullptr);
+  }
+
  private:
   mutable std::mutex mutex_;
   std::array<std::shared_ptr<const void>, 19> slots_;

@@ -10,6 +10,7 @@ namespace onset {
 
 struct PrimitiveFilter;  // base/primitive_filter.hpp
 class FixedCache;        // base/fixed_cache.hpp
+class Spares;            // base/spares.hpp
 
 struct MeshData {
   int num_vertices = 0;
@@ -18,10 +19,10 @@ struct MeshData {
   std::vector<double> thickness;  // empty: none; else one value >= 0 a vertex
 
   // Who may meet whom; empty where nothing was set.
-  std::vector<int> body;                   // a vertex; empty: all in body 0
-  std::vector<bool> fixed;                 // a vertex: static
-  std::vector<bool> rigid, no_self;        // a body
-  std::vector<std::uint32_t> group, mask;  // a vertex
+  std::vector<int> body;                                               // a vertex; empty: all in body 0
+  std::vector<bool> fixed;                                             // a vertex: static
+  std::vector<bool> rigid, no_self;                                    // a body
+  std::vector<std::uint32_t> group, mask;                              // a vertex
   std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;  // smaller id first, sorted, each once
 
   std::vector<int> full_vertex;  // a vertex: its id in the full mesh; empty: its own
@@ -31,6 +32,7 @@ struct MeshData {
   // meet all that it shares no vertex with.
   std::shared_ptr<const PrimitiveFilter> filter;
   std::shared_ptr<FixedCache> fixed_cache;  // not null where a filter has fixed primitives
+  std::shared_ptr<Spares> spares;           // not null where there is a filter
 };
 
 }  // namespace onset

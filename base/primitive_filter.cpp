@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/fixed_cache.hpp"
+#include "base/spares.hpp"
 #include "base/pair_census.hpp"
 
 namespace onset {
@@ -122,6 +123,7 @@ void finish_mesh(MeshData& mesh) {
   for (std::size_t v = 0; v < mesh.fixed.size(); ++v)
     (mesh.fixed[v] ? filter->static_ids : filter->free_ids).push_back(int(v));
   mesh.fixed_cache = filter->has_fixed() ? std::make_shared<FixedCache>() : nullptr;
+  mesh.spares = std::make_shared<Spares>();
   mesh.filter = std::move(filter);
 }
 

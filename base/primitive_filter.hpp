@@ -38,7 +38,7 @@ struct PrimitiveFilter {
   bool has_fixed() const { return !fixed_vertices.empty(); }
 };
 
-// Sets mesh.filter and mesh.fixed_cache from the rest.
+// Sets mesh.filter from the rest, and what is kept from call to call anew.
 void finish_mesh(MeshData& mesh);
 
 // Whether keys, apart from excluded pairs, let two primitives meet.

@@ -38,6 +38,9 @@ class BroadPhase : public PairSource {
   // New boxes in the memory and the order already there: another motion, horizon, inflation or test over the
   // same mesh (the same MeshData object). Afterwards as if made from `input`, up to the order of pairs.
   virtual void refit(const BroadPhaseInput& input) = 0;
+  // Whether the order already there is about as good for this motion as it was for the one that it was made
+  // for: a broad phase that an earlier call used is then worth a refit.
+  virtual bool suits(const Motion&) const { return false; }
   // Whether boxes of static primitives were made, not taken from an earlier call.
   virtual bool made_fixed_boxes() const { return false; }
 };

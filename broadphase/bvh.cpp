@@ -33,18 +33,23 @@ class Bvh final : public BroadPhase {
             all ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])} : listed(filter->moving[k]), order_,
             alone);
     });
+    roughness_ = roughness(order_, input.motion);
     fit(input, map);
   }
 
   const char* name() const override { return "bvh"; }
   bool made_fixed_boxes() const override { return made_fixed_; }
 
+  bool suits(const Motion& motion) const override {
+    return roughness(order_, motion) <= kMostRoughened * roughness_;
+  }
+
   void refit(const BroadPhaseInput& input) override {
     finite_ = input.motion.status == Outcome::free;
     if (finite_ && input.mesh.filter && input.mesh.filter->has_fixed()) {
       bool made = false;
       fixed_ = fixed_trees(input, made);
-      made_fixed_ = made_fixed_ || made;
+      made_fixed_ = made;
     }
     fit(input, fixed_ ? fixed_->map : FloatMap(input.motion));
   }
@@ -129,7 +134,10 @@ class Bvh final : public BroadPhase {
     couples.push_back({&query, &other, (couples.empty() ? 0 : couples.back().end) + query.units()});
   }
 
+  static constexpr double kMostRoughened = 1.25;
+
   VertexOrder order_;
+  double roughness_ = 0;  // of the order, when it was made
   bool finite_ = false, made_fixed_ = false;
   std::optional<BroadPhaseInput> input_;
   std::array<std::optional<BoxTree>, 3> trees_;

@@ -120,6 +120,7 @@ class SpatialHash final : public BroadPhase {
 
   const char* name() const override { return "hash"; }
 
+  bool suits(const Motion&) const override { return true; }  // it has no order
   void refit(const BroadPhaseInput& input) override {
     test_ = input.test;
     finite_ = input.motion.status == Outcome::free;

@@ -1,6 +1,7 @@
 #include "broadphase/vertex_order.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -39,6 +40,19 @@ void sort_run(const MeshData& mesh, Primitive kind, const int* rank, int* first,
 }
 
 }  // namespace
+
+double roughness(const VertexOrder& order, const Motion& motion) {
+  constexpr std::size_t kSamples = 512;
+  const std::size_t count = order.vertex.size(), step = std::max<std::size_t>(1, count / kSamples);
+  const auto distance = [&](std::size_t r, std::size_t q) {
+    const double *x = motion.t0(order.vertex[r]), *y = motion.t0(order.vertex[q]);
+    return std::fabs(x[0] - y[0]) + std::fabs(x[1] - y[1]) + std::fabs(x[2] - y[2]);
+  };
+  double near = 0, far = 0;
+  for (std::size_t r = 0; r + 1 < count; r += step)
+    near += distance(r, r + 1), far += distance(r, (r + count / 2) % count);
+  return far > 0 ? near / far : 0;
+}
 
 VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices) {
   const std::size_t count = vertices.count;

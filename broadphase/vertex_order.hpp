@@ -20,6 +20,9 @@ struct VertexOrder {
   std::vector<int> rank;    // of each vertex; 0 for those that have none
 };
 
+// How far neighbours along the order are apart, relative to vertices half the order apart, from a sample.
+double roughness(const VertexOrder& order, const Motion& motion);
+
 VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices);
 
 // Fills ids[0..list.count) by the lowest rank among their vertices; many of one lowest rank by the

@@ -102,7 +102,7 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
     h.rounding = rounding_of_distances(h.scene->motion);
     const bool held = h.scene->broad && h.fill(budget);
     h.start.outcome = budget.outcome();
-    if (held) h.scene->broad.reset();
+    if (held) h.scene->give_back_broad();
   });
 }
 LineSearch::~LineSearch() = default;

@@ -7,7 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/fixed_cache.hpp"
 #include "base/primitive_filter.hpp"
+#include "base/spares.hpp"
 
 namespace onset {
 namespace {
@@ -85,6 +87,11 @@ int Mesh::full_vertex(std::ptrdiff_t vertex) const {
   return data_->full_vertex.empty() ? int(vertex) : data_->full_vertex.at(std::size_t(vertex));
 }
 const PairPlan& Mesh::plan() const { return data_->filter->plan; }
+
+void Mesh::release_memory() const {
+  data_->spares->clear();
+  if (data_->fixed_cache) data_->fixed_cache->clear();
+}
 
 std::array<int, 4> Mesh::full_vertices(const Pair& pair) const {
   std::array<int, 4> full = pair.vertices;

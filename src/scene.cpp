@@ -5,6 +5,7 @@
 
 #include "base/dispatch.hpp"
 #include "base/parallel.hpp"
+#include "base/spares.hpp"
 #include "src/checked_options.hpp"
 #include "src/close_set.hpp"
 
@@ -19,7 +20,37 @@ BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, co
   return {mesh, motion, inflation, horizon, test, options.kernel, half};
 }
 
+namespace {
+
+// Only trees and grids of the two tests are worth keeping, each in a slot of its own.
+bool is_kept(BroadPhaseMethod method) { return method != BroadPhaseMethod::brute; }
+Spares::Slot slot_of(BroadPhaseMethod method, BoxTest test) {
+  return 2 * Spares::Slot(method == BroadPhaseMethod::hash) + Spares::Slot(test == BoxTest::swept);
+}
+
+// The one that an earlier call left, where its order will do. Under a budget of checks what is found depends
+// on the order: it must not depend on earlier calls.
+std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const BroadPhaseInput& input,
+                                             const Budget& budget) {
+  if (input.mesh.spares && is_kept(options.broad_phase) && !budget.counts_checks()) {
+    auto spare = input.mesh.spares->take<BroadPhase>(slot_of(options.broad_phase, input.test));
+    if (spare && spare->suits(input.motion)) {
+      spare->refit(input);
+      return spare;
+    }
+  }
+  return make_broad_phase(options.broad_phase, input);
+}
+
+}  // namespace
+
+void Scene::give_back_broad() {
+  if (broad && spares_) spares_->give_back(slot_, std::move(broad));
+  broad.reset();
+}
+
 Scene::~Scene() {
+  give_back_broad();
   if (motion.rows_last) motion.fixed->give_back(motion.axes, std::move(motion.x));
 }
 
@@ -45,7 +76,9 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
     input.inflation = std::max(input.inflation, fixed ? reach : 0.5 * reach);
   }
   if (budget.spent()) return;
-  broad = make_broad_phase(options.broad_phase, input);
+  broad = take_broad_phase(options, input, budget);
+  if (is_kept(options.broad_phase)) spares_ = data.spares;
+  slot_ = slot_of(options.broad_phase, test);
   stats.broad_phase = broad->name();
   stats.made_fixed_boxes = broad->made_fixed_boxes();
   stats.seconds_broad = clock.seconds();

@@ -17,7 +17,7 @@ BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, co
 
 struct Scene {
   Motion motion;
-  std::unique_ptr<BroadPhase>
+  std::shared_ptr<BroadPhase>
       broad;  // empty where the motion is not usable (motion.status), or no budget is left
   Clock clock;
 
@@ -27,6 +27,13 @@ struct Scene {
   Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, BoxTest test,
         Stats& stats, Budget& budget, double d_hat = -1);
   ~Scene();
+
+  // Leaves the broad phase to the next call on the mesh.
+  void give_back_broad();
+
+ private:
+  std::shared_ptr<Spares> spares_;
+  std::size_t slot_ = 0;
 };
 
 }  // namespace onset

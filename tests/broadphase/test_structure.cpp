@@ -43,6 +43,22 @@ TEST_CASE("blocks traversed one by one give what one call gives, in the same ord
   }
 }
 
+TEST_CASE("a tree suits the motions after its own, and not another scene", "[unit]") {
+  const Soup soup = middle_soup(2);
+  Soup later = soup, other = soup;
+  later.x_t0 = soup.x_t1;
+  const Motion motion = soup.motion();
+  const auto tree = make_broad_phase(BroadPhaseMethod::bvh, {soup.mesh, motion});
+  CHECK(tree->suits(motion));
+  CHECK(tree->suits(later.motion()));
+  for (std::vector<double>* x : {&other.x_t0, &other.x_t1}) {
+    const std::vector<double> before = *x;
+    for (std::size_t v = 0; v < x->size() / 3; ++v)
+      for (std::size_t a = 0; a < 3; ++a) (*x)[3 * v + a] = before[7919 * v % (x->size() / 3) * 3 + a];
+  }
+  CHECK(!tree->suits(other.motion()));
+}
+
 TEST_CASE("both kernels emit the same pairs in the same order", "[simd]") {
   if (!has_avx2()) return;
   for (const Soup& soup : hard_soups()) {
