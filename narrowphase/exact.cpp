@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "narrowphase/exact_complete.hpp"
+#include "narrowphase/exact_coplanar.hpp"
 #include "narrowphase/exact_search.hpp"
 
 namespace onset {
@@ -87,9 +88,14 @@ template <int Limbs, class C, class M, class T>
 Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerPoints<C>& t1, int bits,
                int depth, bool want_time) {
   const int cubic_bits = cubic_bits_for(bits);
-  ExactSearch<Limbs, C, M, T> s(pair.kind, relative_vectors(pair.kind, t0), relative_vectors(pair.kind, t1),
-                                cubic_bits, depth);
+  const RelativeVectors<C> r0 = relative_vectors(pair.kind, t0), r1 = relative_vectors(pair.kind, t1);
+  ExactSearch<Limbs, C, M, T> s(pair.kind, r0, r1, cubic_bits, depth);
   const ContactInterval found = s.first();
+  if constexpr (std::is_same_v<C, std::int64_t>)
+    if (found.coplanar) {
+      const CoplanarContact first = first_coplanar_contact(pair.kind, r0, r1);
+      return {first.answer, true, first.time};
+    }
   if (found.answer != Answer::yes) return {found.answer, found.answer == Answer::no || found.zoomed, {}};
   const double width = std::ldexp(1.0, -found.depth), lo = double(found.k) * width;
   if (found.exact) return {found.answer, true, DoubleBracket{lo, lo}};

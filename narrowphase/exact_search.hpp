@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "narrowphase/exact_bracket.hpp"
+#include "narrowphase/exact_common_root.hpp"
 #include "narrowphase/exact_static.hpp"
 
 namespace onset {
@@ -22,7 +23,8 @@ struct ContactInterval {
   std::uint64_t k = 0;
   int depth = 0;
   bool exact = false;
-  bool zoomed = false;  // unknown although f's root is known to the last bit: wider integers will not help
+  bool zoomed = false;    // unknown although f's root is known to the last bit: wider integers will not help
+  bool coplanar = false;  // unknown since f = 0 for all t, and no contact at t = 0
 };
 
 // N: limbs that f at a double takes. C: coordinates of q, a, b, below 2^c. M: products of two, 2^(2c + 2). T:
@@ -36,8 +38,9 @@ class ExactSearch {
 
   ContactInterval first() {
     const Normal n = set_cubic();
-    if (sign_of(f_[0]) == 0 && coplanar_touch<M>(kind_, r0_)) return {Answer::yes, 0, 0, true, false};
-    if (sign_of(f_[0]) == 0 && sign_of(f_[1]) == 0 && sign_of(f_[2]) == 0 && sign_of(f_[3]) == 0) return {};
+    if (sign_of(f_[0]) == 0 && coplanar_touch<M>(kind_, r0_)) return {Answer::yes, 0, 0, true};
+    if (sign_of(f_[0]) == 0 && sign_of(f_[1]) == 0 && sign_of(f_[2]) == 0 && sign_of(f_[3]) == 0)
+      return {Answer::unknown, 0, 0, false, false, true};
     if (has_no_root(f_)) return at_end();
     set_slot(n, whole_);
     Slot slot = whole_;
@@ -205,21 +208,31 @@ class ExactSearch {
     if (depth > 0 && sign_of(s.f[0]) == 0) {
       const Answer start = touches_at_start(s);
       if (start != Answer::no) {
-        found_ = {start, k, depth, true, false};
+        found_ = {start, k, depth, true};
         return start;
       }
     }
     if (has_no_root(s.f) || outside(s)) return Answer::no;
     if (inside(s) && has_one_root(s.f)) {
-      found_ = {Answer::yes, k, depth, false, false};
+      found_ = {Answer::yes, k, depth};
       return Answer::yes;
     }
-    if (s.sign != 0 && depth >= std::min(kZoom, max_depth_) && has_one_root(s.f)) return zoom(s, k, depth);
+    if (s.sign != 0 && depth >= std::min(kZoom, max_depth_) && has_one_root(s.f)) {
+      close_zeros(s, k, depth);
+      return zoom(s, k, depth);
+    }
     if (depth == max_depth_) return Answer::unknown;
     Slot l, r;
     halve(s, l, r);
     const Answer left = visit(l, 2 * k, depth + 1);
     return left != Answer::no ? left : visit(r, 2 * k + 1, depth + 1);
+  }
+
+  // f has one root in the slot: closes what is zero there, which counts as inside.
+  void close_zeros(Slot& s, std::uint64_t k, int depth) const {
+    if (!common_root_fits((cubic_bits_ - 5) / 3)) return;
+    for (int i = 1; i < kQuadratics; ++i)
+      if (s.open[i] && vanishes_at_root(f_, whole_.g[i], k, depth)) s.open[i] = false;
   }
 
   // Twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
@@ -230,6 +243,10 @@ class ExactSearch {
 
   // f has one root in the slot, N a sign: the rest looked at between the adjacent doubles around the root.
   Answer zoom(const Slot& s, std::uint64_t k, int depth) {
+    if (inside(s)) {
+      found_ = {Answer::yes, k, depth};
+      return Answer::yes;
+    }
     found_.zoomed = true;
     const auto t = bracket_of<N>(f_, cubic_bits_, k, depth);
     if (!t) return Answer::unknown;
@@ -255,7 +272,7 @@ class ExactSearch {
 
   ContactInterval at_end() const {
     const bool touches = sign_of(f_[3]) == 0 && coplanar_touch<M>(kind_, r1_);
-    return {touches ? Answer::yes : Answer::no, 1, 0, true, false};
+    return {touches ? Answer::yes : Answer::no, 1, 0, true};
   }
 
   PairKind kind_;
