@@ -93,7 +93,7 @@ Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerP
   const ContactInterval found = s.first();
   if constexpr (std::is_same_v<C, std::int64_t>)
     if (found.coplanar) {
-      const CoplanarContact first = first_coplanar_contact(pair.kind, r0, r1);
+      const CoplanarContact first = first_coplanar_contact(pair.kind, r0, r1, want_time);
       return {first.answer, true, first.time};
     }
   if (found.answer != Answer::yes) return {found.answer, found.answer == Answer::no || found.zoomed, {}};

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 
 #include "narrowphase/wide.hpp"
 
@@ -23,31 +22,26 @@ inline bool common_root_fits(int c) {
 
 // Bernstein coefficients on [0, 1], each polynomial up to a factor of its own; the cubic has one root, a
 // simple one, between k / 2^depth and (k + 1) / 2^depth, and is not zero at these. Whether the quadratic, not
-// zero throughout, vanishes at that root.
+// zero throughout, vanishes at that root; changes_sign: its signs at the two ends are opposite.
 template <class T>
-bool vanishes_at_root(const T (&cubic)[4], const T (&quadratic)[3], std::uint64_t k, int depth) {
+bool vanishes_at_root(const T (&cubic)[4], const T (&quadratic)[3], std::uint64_t k, int depth,
+                      bool changes_sign) {
   using R = Wide<kRemainderLimbs>;
   R a[4] = {cubic[0], cubic[1] + cubic[1] + cubic[1], cubic[2] + cubic[2] + cubic[2], cubic[3]};
   R b[3] = {quadratic[0], quadratic[1] + quadratic[1], quadratic[2]};
-  const R left = std::int64_t(k), one = shifted(R(1), depth), right = left + R(1);
-  R from[2] = {one - left, left}, to[2] = {one - right, right};  // y, x
-  if (sign_of(b[2]) == 0) {                                      // 0 and 1 change places
-    std::reverse(a, a + 4), std::reverse(b, b + 3);
-    std::swap(from[0], from[1]), std::swap(to[0], to[1]);
-  }
+  const bool swapped = sign_of(b[2]) == 0;
+  if (swapped) std::reverse(a, a + 4), std::reverse(b, b + 3);
   if (sign_of(b[2]) == 0) return false;  // b_1 x y, zero at 0 and 1 only
   const R c2 = b[2] * a[2] - a[3] * b[1], c1 = b[2] * a[1] - a[3] * b[0], c0 = b[2] * a[0];
   const R r1 = b[2] * c1 - c2 * b[1], r0 = b[2] * c0 - c2 * b[0];
-  if (sign_of(r1) == 0) {
-    if (sign_of(r0) != 0) return false;
-    // g divides f: a root of g in the interval is f's, and simple.
-    const auto sign_of_g = [&](const R(&p)[2]) {
-      return sign_of(b[0] * p[0] * p[0] + b[1] * p[0] * p[1] + b[2] * p[1] * p[1]);
-    };
-    return sign_of_g(from) * sign_of_g(to) < 0;
-  }
-  const auto side = [&](const R(&p)[2]) { return sign_of(r1 * p[1] + r0 * p[0]); };
-  if (side(from) * side(to) >= 0) return false;
+  // Where g divides f a root of g in the interval is f's, and simple.
+  if (sign_of(r1) == 0) return sign_of(r0) == 0 && changes_sign;
+  const R one = shifted(R(1), depth);
+  const auto side = [&](std::int64_t n) {
+    const R x = n, y = one - x;
+    return sign_of(swapped ? r1 * y + r0 * x : r1 * x + r0 * y);
+  };
+  if (side(std::int64_t(k)) * side(std::int64_t(k) + 1) >= 0) return false;
   using V = Wide<kCommonRootLimbs>;
   const V x(-r0), y(r1);
   return sign_of((V(b[0]) * y + V(b[1]) * x) * y + V(b[2]) * (x * x)) == 0;

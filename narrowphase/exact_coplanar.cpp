@@ -76,6 +76,9 @@ int roots_of(const Quadratic& p, Root (&out)[2]) {
 int sign_of_sum(const Alpha& alpha, const Alpha& beta, const Product& d) {
   const int a = sign_of(alpha), b = sign_of(d) == 0 ? 0 : sign_of(beta);
   if (a == 0 || b == 0 || a == b) return a != 0 ? a : b;
+  // Rounded: both right to 2^-45.
+  const double size = std::fabs(estimate(alpha)), other = std::fabs(estimate(beta)) * std::sqrt(estimate(d));
+  if (std::fabs(size - other) > 0x1p-40 * size) return size > other ? a : b;
   const Compared x = alpha, y = beta;
   return a * sign_of(x * x - y * y * Compared(d));
 }
@@ -129,7 +132,7 @@ struct Segment {
   }
 
   // The first time in (0, 1] at which the point is on the segment, where it is not at t = 0.
-  CoplanarContact first() const {
+  CoplanarContact first(bool adjacent) const {
     if (definite_sign(extent) < 0) return {};
     const Quadratic* moving = nullptr;
     for (const Quadratic& g : off_line) {
@@ -147,8 +150,11 @@ struct Segment {
       if (at_end < 0) return {};
       if (moving && !touches_at(roots[i])) continue;
       if (at_end == 0) return {Answer::yes, {1, 1}};
-      const DoubleBracket found =
-          adjacent_doubles(0, 1, approximately(roots[i]), [&](double t) { return -time.at(t); });
+      const double guess = approximately(roots[i]);
+      if (const DoubleBracket wide{guess * (1 - 0x1p-30), std::min(guess * (1 + 0x1p-30), 1.0)};
+          !adjacent && time.at(wide.lo) < 0 && time.at(wide.hi) > 0 && time.fits)
+        return {Answer::yes, wide};
+      const DoubleBracket found = adjacent_doubles(0, 1, guess, [&](double t) { return -time.at(t); });
       return {time.fits ? Answer::yes : Answer::unknown, found};
     }
     return {};
@@ -170,13 +176,13 @@ RelativeVectors<Coefficient> widened(const RelativeVectors<std::int64_t>& r) {
 }  // namespace
 
 CoplanarContact first_coplanar_contact(PairKind kind, const RelativeVectors<std::int64_t>& r0,
-                                       const RelativeVectors<std::int64_t>& r1) {
+                                       const RelativeVectors<std::int64_t>& r1, bool adjacent) {
   PointAndSegment<Coefficient> start[4], end[4];
   const int count = boundary_of(kind, widened(r0), start);
   boundary_of(kind, widened(r1), end);
   CoplanarContact first;
   for (int i = 0; i < count; ++i) {
-    const CoplanarContact here = Segment(start[i], end[i]).first();
+    const CoplanarContact here = Segment(start[i], end[i]).first(adjacent);
     if (here.answer == Answer::unknown) return here;
     if (here.answer == Answer::no) continue;
     // Rounding is monotonic: the ends of the earliest are the smallest ends.

@@ -10,12 +10,13 @@ namespace onset {
 
 struct CoplanarContact {
   Answer answer = Answer::no;
-  DoubleBracket time;  // yes: adjacent doubles around the first contact, or the double that it is
+  DoubleBracket time;  // yes: an interval that holds the first contact
 };
 
+// adjacent: between adjacent doubles, or the double that it is; else in 2^-29 of its time.
 // Given q.(a x b) = 0 for all t and no contact at t = 0. Coordinates of q, a, b below 2^62. unknown: the
 // first contact is so early that a double there does not fit.
 CoplanarContact first_coplanar_contact(PairKind kind, const RelativeVectors<std::int64_t>& r0,
-                                       const RelativeVectors<std::int64_t>& r1);
+                                       const RelativeVectors<std::int64_t>& r1, bool adjacent);
 
 }  // namespace onset

@@ -232,7 +232,9 @@ class ExactSearch {
   void close_zeros(Slot& s, std::uint64_t k, int depth) const {
     if (!common_root_fits((cubic_bits_ - 5) / 3)) return;
     for (int i = 1; i < kQuadratics; ++i)
-      if (s.open[i] && vanishes_at_root(f_, whole_.g[i], k, depth)) s.open[i] = false;
+      if (s.open[i] &&
+          vanishes_at_root(f_, whole_.g[i], k, depth, sign_of(s.g[i][0]) * sign_of(s.g[i][2]) < 0))
+        s.open[i] = false;
   }
 
   // Twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.

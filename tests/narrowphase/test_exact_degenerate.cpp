@@ -56,7 +56,8 @@ void check_zero(const IntegerPolynomial& f, const IntegerPolynomial& g, Counts& 
     if (root.exact || root.depth > 24) continue;
     IsolatedRoot at = root;
     const bool zero = sign_at(g, at) == 0;
-    CHECK(vanishes_at_root(cubic, quadratic, std::uint64_t(root.k), int(root.depth)) == zero);
+    const bool changes = sign_at(g, root.k, root.depth) * sign_at(g, root.k + 1, root.depth) < 0;
+    CHECK(vanishes_at_root(cubic, quadratic, std::uint64_t(root.k), int(root.depth), changes) == zero);
     ++(zero ? counts.zeros : counts.others);
   }
 }
@@ -77,8 +78,11 @@ void check_plane(const Query& query, int& contacts) {
   const auto quick = exact_first_contact(pair), complete = complete_first_contact(pair);
   INFO(to_text(query));
   CHECK(quick.has_value() == complete.has_value());
-  CHECK(exact_answer(pair, Effort::quick).answer == (complete ? Answer::yes : Answer::no));
+  const ExactAnswer wide = exact_answer(pair, Effort::quick);
+  CHECK(wide.answer == (complete ? Answer::yes : Answer::no));
   if (!quick || !complete) return;
+  CHECK(wide.time.lo <= complete->lo);
+  CHECK(wide.time.hi >= complete->hi);
   CHECK(quick->lo == complete->lo);
   CHECK(quick->hi == complete->hi);
   contacts += complete->hi > 0;
