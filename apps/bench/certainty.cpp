@@ -3,7 +3,12 @@
 //   onset_certainty_bench A B [A B ...]
 //
 // CPU seconds of one thread, the least of several rounds; relative tolerance 1e-8 and 1e-3.
+//
+//   onset_certainty_bench --once LEVEL A B
+//
+// One call at 1e-8 and nothing printed: to count instructions where time is too noisy.
 #include <cstdio>
+#include <cstring>
 #include <vector>
 
 #include "error.hpp"
@@ -46,22 +51,40 @@ void compare(const char* name, const app::Scene& scene, double tolerance) {
   std::fflush(stdout);
 }
 
+int count_once(const char* level, const char* x_t0, const char* x_t1) {
+  const char* const names[] = {"conservative", "certify", "exact"};
+  for (int i = 0; i < 3; ++i) {
+    if (std::strcmp(level, names[i]) != 0) continue;
+    const app::Scene scene = app::read_scene(x_t0, x_t1);
+    onset::Options options;
+    options.threads = 1;
+    options.relative_tolerance = 1e-8;
+    options.certainty = kLevels[i];
+    Measured m;
+    measure(scene, options, m);
+    return 0;
+  }
+  std::fprintf(stderr, "onset_certainty_bench: no level '%s'\n", level);
+  return 2;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+  if (argc == 5 && std::strcmp(argv[1], "--once") == 0) return count_once(argv[2], argv[3], argv[4]);
   if (argc < 3 || argc % 2 == 0) {
-    std::fprintf(stderr, "usage: onset_certainty_bench A B [A B ...]\n");
+    std::fprintf(stderr,
+                 "usage: onset_certainty_bench A B [A B ...]\n"
+                 "       onset_certainty_bench --once LEVEL A B\n");
     return 2;
   }
   std::printf("| step | tolerance | conservative ms | contacts | certify | certain | exact | certain |\n");
   std::printf("|---|---|---|---|---|---|---|---|\n");
-  try {
-    for (int i = 1; i < argc; i += 2) {
-      const app::Scene scene = app::read_scene(argv[i], argv[i + 1]);
-      for (const double tolerance : {1e-8, 1e-3}) compare(argv[i], scene, tolerance);
-    }
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "onset_certainty_bench: %s\n", error.what());
-    return 1;
+  for (int i = 1; i < argc; i += 2) {
+    const app::Scene scene = app::read_scene(argv[i], argv[i + 1]);
+    for (const double tolerance : {1e-8, 1e-3}) compare(argv[i], scene, tolerance);
   }
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "onset_certainty_bench: %s\n", error.what());
+  return 1;
 }
