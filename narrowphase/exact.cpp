@@ -91,7 +91,7 @@ Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerP
   const RelativeVectors<C> r0 = relative_vectors(pair.kind, t0), r1 = relative_vectors(pair.kind, t1);
   ExactSearch<Limbs, C, M, T> s(pair.kind, r0, r1, cubic_bits, depth);
   const ContactInterval found = s.first();
-  if constexpr (std::is_same_v<C, std::int64_t>)
+  if constexpr (sizeof(C) <= 16)
     if (found.coplanar) {
       const CoplanarContact first = first_coplanar_contact(pair.kind, r0, r1, want_time);
       return {first.answer, true, first.time};
@@ -115,6 +115,13 @@ Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
                                                   want_time);
 }
 
+// Coordinates of up to 120 bits in two limbs.
+Decided search_two_limbs(const ExactPair& pair, const Grid& grid, bool want_time) {
+  const auto t0 = on_grid<Wide<2>>(pair.t0, grid.last), t1 = on_grid<Wide<2>>(pair.t1, grid.last);
+  return search<12, Wide<2>, Wide<4>, Wide<7>>(pair, t0, t1, grid.bits, depth_for(grid.bits, 64 * 7),
+                                               want_time);
+}
+
 constexpr int kWide = 8;
 Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool want_time) {
   using W = Wide<kWide>;
@@ -135,8 +142,8 @@ Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool w
 
 Decided search(const ExactPair& pair, double from, bool want_time) {
   const Grid grid = grid_of(pair);
-  return from == 0 && grid.bits <= 61 ? search_narrow(pair, grid, want_time)
-                                      : search_wide(pair, grid, from, want_time);
+  if (from > 0 || grid.bits > 120) return search_wide(pair, grid, from, want_time);
+  return grid.bits <= 61 ? search_narrow(pair, grid, want_time) : search_two_limbs(pair, grid, want_time);
 }
 
 }  // namespace

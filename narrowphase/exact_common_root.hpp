@@ -11,22 +11,26 @@
 
 namespace onset {
 
-// Whether coordinates of q, a, b below 2^c fit. By the sums of products in exact_search.hpp, with every
+// Widths for coordinates of q, a, b below 2^c. By the sums of products in exact_search.hpp, with every
 // product of k coordinates below 2^(k c): |a_i| < 54 2^(3c), |b_i| < 24 2^(2c); the first step of the
-// division is below 2 * 54 * 24 2^(5c), r below 2 * 24 * 2592 2^(7c) < 2^(7c + 17), at k / 2^depth 2^(7c + 18
-// + depth) (512 bits: depth < 38), and g there below 3 * 24 * 124416^2 2^(16c) < 2^(16c + 41).
-constexpr int kRemainderLimbs = 8, kCommonRootLimbs = 17;
-inline bool common_root_fits(int c) {
-  return 16 * c + 42 <= 64 * kCommonRootLimbs;  // c <= 65
-}
+// division is below 2 * 54 * 24 2^(5c), r below 2 * 24 * 2592 2^(7c) < 2^(7c + 17), at k / 2^depth, depth <=
+// 24, below 2^(7c + 42), and g at the candidate below 3 * 24 * 124416^2 2^(16c) < 2^(16c + 41).
+template <int RemainderLimbs, int ValueLimbs>
+struct CommonRootWidths {
+  static constexpr bool fit(int c) {
+    return 7 * c + 43 <= 64 * RemainderLimbs && 16 * c + 42 <= 64 * ValueLimbs;
+  }
+};
+using NarrowCommonRoot = CommonRootWidths<8, 17>;  // c <= 65
+using WideCommonRoot = CommonRootWidths<14, 31>;   // c <= 121
 
 // Bernstein coefficients on [0, 1], each polynomial up to a factor of its own; the cubic has one root, a
 // simple one, between k / 2^depth and (k + 1) / 2^depth, and is not zero at these. Whether the quadratic, not
 // zero throughout, vanishes at that root; changes_sign: its signs at the two ends are opposite.
-template <class T>
-bool vanishes_at_root(const T (&cubic)[4], const T (&quadratic)[3], std::uint64_t k, int depth,
-                      bool changes_sign) {
-  using R = Wide<kRemainderLimbs>;
+template <int RemainderLimbs, int ValueLimbs, class T>
+bool vanishes_at_root(CommonRootWidths<RemainderLimbs, ValueLimbs>, const T (&cubic)[4],
+                      const T (&quadratic)[3], std::uint64_t k, int depth, bool changes_sign) {
+  using R = Wide<RemainderLimbs>;
   R a[4] = {cubic[0], cubic[1] + cubic[1] + cubic[1], cubic[2] + cubic[2] + cubic[2], cubic[3]};
   R b[3] = {quadratic[0], quadratic[1] + quadratic[1], quadratic[2]};
   const bool swapped = sign_of(b[2]) == 0;
@@ -42,7 +46,7 @@ bool vanishes_at_root(const T (&cubic)[4], const T (&quadratic)[3], std::uint64_
     return sign_of(swapped ? r1 * y + r0 * x : r1 * x + r0 * y);
   };
   if (side(std::int64_t(k)) * side(std::int64_t(k) + 1) >= 0) return false;
-  using V = Wide<kCommonRootLimbs>;
+  using V = Wide<ValueLimbs>;
   const V x(-r0), y(r1);
   return sign_of((V(b[0]) * y + V(b[1]) * x) * y + V(b[2]) * (x * x)) == 0;
 }

@@ -230,11 +230,14 @@ class ExactSearch {
 
   // f has one root in the slot: closes what is zero there, which counts as inside.
   void close_zeros(Slot& s, std::uint64_t k, int depth) const {
-    if (!common_root_fits((cubic_bits_ - 5) / 3)) return;
     for (int i = 1; i < kQuadratics; ++i)
-      if (s.open[i] &&
-          vanishes_at_root(f_, whole_.g[i], k, depth, sign_of(s.g[i][0]) * sign_of(s.g[i][2]) < 0))
+      if (s.open[i] && vanishes(whole_.g[i], k, depth, sign_of(s.g[i][0]) * sign_of(s.g[i][2]) < 0))
         s.open[i] = false;
+  }
+  // false: no, or too wide to know.
+  bool vanishes(const T (&g)[3], std::uint64_t k, int depth, bool changes_sign) const {
+    using Widths = std::conditional_t<sizeof(T) <= 32, NarrowCommonRoot, WideCommonRoot>;
+    return Widths::fit((cubic_bits_ - 5) / 3) && vanishes_at_root(Widths(), f_, g, k, depth, changes_sign);
   }
 
   // Twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.

@@ -62,6 +62,7 @@ struct Wide {
     return r;
   }
   friend Wide operator*(const Wide& a, const Wide& b) {
+    if constexpr (N >= 6) return long_product(a, b);
     Wide r(0);
     for (int i = 0; i < N; ++i) {
       UInt128 carry = 0;
@@ -72,6 +73,29 @@ struct Wide {
       }
     }
     return r;
+  }
+  // Numbers are mostly far smaller than their width: by magnitudes, as many limbs as they have.
+  static Wide long_product(const Wide& a, const Wide& b) {
+    const bool a_negative = a.limb[N - 1] >> 63, b_negative = b.limb[N - 1] >> 63;
+    const Wide x = a_negative ? -a : a, y = b_negative ? -b : b;
+    const int x_limbs = x.limbs_in_use(), y_limbs = y.limbs_in_use();
+    Wide r(0);
+    for (int i = 0; i < x_limbs; ++i) {
+      const int end = y_limbs < N - i ? y_limbs : N - i;
+      UInt128 carry = 0;
+      for (int j = 0; j < end; ++j) {
+        carry += UInt128(x.limb[i]) * y.limb[j] + r.limb[i + j];
+        r.limb[i + j] = std::uint64_t(carry);
+        carry >>= 64;
+      }
+      if (i + end < N) r.limb[i + end] = std::uint64_t(carry);
+    }
+    return a_negative != b_negative ? -r : r;
+  }
+  int limbs_in_use() const {
+    int n = N;
+    while (n > 0 && limb[n - 1] == 0) --n;
+    return n;
   }
   // a 2^count, 0 <= count < 64 N.
   friend Wide shifted(const Wide& a, int count) {

@@ -15,10 +15,10 @@ using scenes::Random;
 
 namespace {
 
-Wide<4> wide(const Integer& x) {
+Wide<7> wide(const Integer& x) {
   const Integer size = abs(x);
-  Wide<4> r(0);
-  for (unsigned i = 0; i < 4; ++i) r.limb[i] = std::uint64_t((size >> (64 * i)) & ~std::uint64_t(0));
+  Wide<7> r(0);
+  for (unsigned i = 0; i < 7; ++i) r.limb[i] = std::uint64_t((size >> (64 * i)) & ~std::uint64_t(0));
   return x < 0 ? -r : r;
 }
 
@@ -34,12 +34,12 @@ IntegerPolynomial random_polynomial(Random& random, int degree, int bits) {
 }
 
 // Six times the Bernstein coefficients on [0, 1], degree 3, and twice those of degree 2.
-void set_bernstein(const IntegerPolynomial& p, Wide<4> (&b)[4]) {
+void set_bernstein(const IntegerPolynomial& p, Wide<7> (&b)[4]) {
   const auto c = [&](int i) { return i <= p.degree() ? p[i] : Integer(0); };
   b[0] = wide(6 * c(0)), b[1] = wide(6 * c(0) + 2 * c(1)), b[2] = wide(6 * c(0) + 4 * c(1) + 2 * c(2));
   b[3] = wide(6 * (c(0) + c(1) + c(2) + c(3)));
 }
-void set_bernstein(const IntegerPolynomial& p, Wide<4> (&b)[3]) {
+void set_bernstein(const IntegerPolynomial& p, Wide<7> (&b)[3]) {
   const auto c = [&](int i) { return i <= p.degree() ? p[i] : Integer(0); };
   b[0] = wide(2 * c(0)), b[1] = wide(2 * c(0) + c(1)), b[2] = wide(2 * (c(0) + c(1) + c(2)));
 }
@@ -47,9 +47,9 @@ void set_bernstein(const IntegerPolynomial& p, Wide<4> (&b)[3]) {
 struct Counts {
   int zeros = 0, others = 0;
 };
-void check_zero(const IntegerPolynomial& f, const IntegerPolynomial& g, Counts& counts) {
+void check_zero(const IntegerPolynomial& f, const IntegerPolynomial& g, Counts& counts, bool narrow = true) {
   if (f.degree() < 1 || g.is_zero() || square_free(f).degree() != f.degree()) return;
-  Wide<4> cubic[4], quadratic[3];
+  Wide<7> cubic[4], quadratic[3];
   set_bernstein(f, cubic);
   set_bernstein(g, quadratic);
   for (const IsolatedRoot& root : isolated_roots(f)) {
@@ -57,7 +57,10 @@ void check_zero(const IntegerPolynomial& f, const IntegerPolynomial& g, Counts& 
     IsolatedRoot at = root;
     const bool zero = sign_at(g, at) == 0;
     const bool changes = sign_at(g, root.k, root.depth) * sign_at(g, root.k + 1, root.depth) < 0;
-    CHECK(vanishes_at_root(cubic, quadratic, std::uint64_t(root.k), int(root.depth), changes) == zero);
+    const auto k = std::uint64_t(root.k);
+    CHECK(vanishes_at_root(WideCommonRoot(), cubic, quadratic, k, int(root.depth), changes) == zero);
+    if (narrow)
+      CHECK(vanishes_at_root(NarrowCommonRoot(), cubic, quadratic, k, int(root.depth), changes) == zero);
     ++(zero ? counts.zeros : counts.others);
   }
 }
@@ -109,24 +112,26 @@ TEST_CASE("a quadratic that is zero at a cubic's root is known to be", "[unit]")
   CHECK(counts.others > 1000);
 }
 
-// As large as coordinates below 2^62 can make them: what overflows would not be zero.
+// As large as coordinates below 2^62 and 2^120 can make them.
 TEST_CASE("a common root of the largest polynomials", "[unit]") {
   Random random(oracle::fuzz_seed() + 52);
-  Counts counts;
-  const Integer big = Integer(1) << 62;
-  for (int i = 0; i < 400; ++i) {
+  for (const unsigned bits : {62, 120}) {
+    Counts counts;
+    const Integer big = Integer(1) << bits;
     const auto near_big = [&] { return Integer(big - scenes::integer(random, 0, 9)); };
-    const IntegerPolynomial line(
-        {Integer(-(near_big() * scenes::integer(random, 1, 999)) / 1000), near_big()});
-    const IntegerPolynomial other({scenes::coin(random) ? near_big() : Integer(-near_big()), near_big()});
-    const IntegerPolynomial square({near_big() * near_big(),
-                                    scenes::coin(random) ? near_big() : Integer(-near_big() * big),
-                                    near_big() * near_big()});
-    check_zero(line * square, line * other, counts);
-    check_zero(line * square, line * other + IntegerPolynomial({Integer(1)}), counts);
+    const auto of_any_sign = [&](const Integer& x) { return scenes::coin(random) ? x : Integer(-x); };
+    for (int i = 0; i < 400; ++i) {
+      const IntegerPolynomial line(
+          {Integer(-(near_big() * scenes::integer(random, 1, 999)) / 1000), near_big()});
+      const IntegerPolynomial other({of_any_sign(near_big()), near_big()});
+      const IntegerPolynomial square(
+          {near_big() * near_big(), of_any_sign(near_big() * big), near_big() * near_big()});
+      check_zero(line * square, line * other, counts, bits == 62);
+      check_zero(line * square, line * other + IntegerPolynomial({Integer(1)}), counts, bits == 62);
+    }
+    CHECK(counts.zeros > 300);
+    CHECK(counts.others > 300);
   }
-  CHECK(counts.zeros > 300);
-  CHECK(counts.others > 300);
 }
 
 TEST_CASE("motion in one plane: the first contact as the complete decision has it", "[property]") {
@@ -157,21 +162,25 @@ TEST_CASE("motion on one line: the first contact as the complete decision has it
   CHECK(contacts > 100);
 }
 
-TEST_CASE("motion in one plane of 61 bits", "[unit]") {
+// As large as the widths allow: all of 61 or 120 bits.
+TEST_CASE("motion in one plane of many bits", "[unit]") {
   Random random(oracle::fuzz_seed() + 55);
-  int contacts = 0;
-  for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
-    for (int i = 0; i < oracle::fuzz(400); ++i) {
-      Query query = scenes::grid_query(kind, random, 3);
-      for (auto* points : {&query.t0, &query.t1})
-        for (Point& p : *points)
-          for (double& x : p) {  // multiples of 2^8 up to 2^61, of all signs, and small ones
-            const double size = scenes::coin(random) ? 0x1p61 - 0x1p8 : 0x1p60;
-            x = scenes::integer(random, 0, 5) == 0 ? x : x > 0 ? size : x < 0 ? -size : 0x1p59;
-          }
-      check_plane(in_plane(query, {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}), contacts);
-    }
-  CHECK(contacts > 30);
+  for (const int bits : {61, 120}) {
+    int contacts = 0;
+    const double large = std::ldexp(1 - 0x1p-53, bits), half = std::ldexp(1.0, bits - 1);
+    for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
+      for (int i = 0; i < oracle::fuzz(400); ++i) {
+        Query query = scenes::grid_query(kind, random, 3);
+        for (auto* points : {&query.t0, &query.t1})
+          for (Point& p : *points)
+            for (double& x : p) {
+              const double size = scenes::coin(random) ? large : half;
+              x = scenes::integer(random, 0, 5) == 0 ? x : x > 0 ? size : x < 0 ? -size : 0.5 * half;
+            }
+        check_plane(in_plane(query, {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}), contacts);
+      }
+    CHECK(contacts > 30);
+  }
 }
 
 // The last bit of a coordinate decides between a hit of the shared edge and a miss.

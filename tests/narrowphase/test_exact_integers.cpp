@@ -57,7 +57,9 @@ IntegerPolynomial with_roots(std::initializer_list<int> eighths) {  // product o
 TEST_CASE("limbs compute as integers of any size do", "[unit]") {
   check_arithmetic<2>();
   check_arithmetic<4>();
+  check_arithmetic<7>();
   check_arithmetic<8>();
+  check_arithmetic<13>();
   for (const std::int64_t x : {std::int64_t(0), std::int64_t(-1), INT64_MAX, INT64_MIN}) {
     CHECK(same(Wide<4>(x), to_wide<4>(Integer(x))));
     CHECK(same(Wide<4>(Int128(x) * x), to_wide<4>(Integer(x) * x)));
