@@ -92,6 +92,33 @@ inline void first_guess(const V (&f)[4], V t, V& root, V& slope) {
   slope = rate / rest;
 }
 
+template <class V>
+inline V underflow() {
+  return V::all(0x1p-900);
+}
+
+// U, V and N for the vector n = a x b at a time, and the bounds of their errors as those at any time within `width`.
+template <class V>
+struct InsideFunctions {
+  V n[3], u, v, big_n, eu, ev, en;
+};
+template <class V>
+inline void set_inside(const RelativeMotion<V>& r, V time, V width, V mq, V ma, V mb, InsideFunctions<V>& out) {
+  V q[3], a[3], b[3], qb[3], aq[3];
+  for (int i = 0; i < 3; ++i) {
+    q[i] = lerp(r.q[0][i], r.q[1][i], time);
+    a[i] = lerp(r.a[0][i], r.a[1][i], time);
+    b[i] = lerp(r.b[0][i], r.b[1][i], time);
+  }
+  cross(a, b, out.n);
+  cross(q, b, qb);
+  cross(a, q, aq);
+  out.big_n = dot(out.n, out.n), out.u = dot(out.n, qb), out.v = dot(out.n, aq);
+  const V each = (V::all(kInsideError) + V::all(kInsideSlope) * width) * ((abs(out.n[0]) + abs(out.n[1])) + abs(out.n[2]));
+  out.eu = each * (mq * mb) + underflow<V>(), out.ev = each * (ma * mq) + underflow<V>();
+  out.en = each * (ma * mb) + underflow<V>();
+}
+
 // The time by which four pairs have certainly touched, 2 where that is not certain; t: they are apart before it.
 template <int K>
 inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
@@ -101,32 +128,22 @@ inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
   V f[4], root, slope;
   set_contact_cubic(r, f);
   first_guess(f, t, root, slope);
-  const V mq = largest_of(r.q), ma = largest_of(r.a), mb = largest_of(r.b), tiny = V::all(0x1p-900);
-  const V error = V::all(kCubicError) * (mq * ma * mb) + tiny;
+  const V mq = largest_of(r.q), ma = largest_of(r.a), mb = largest_of(r.b);
+  const V error = V::all(kCubicError) * (mq * ma * mb) + underflow<V>();
   const V half = V::all(4) * error / abs(slope) + V::all(0x1p-52);
   const V lo = max(root - half, zero<V>()), hi = min(root + half, one<V>());
   const V at_lo = cubic_at(f, lo), at_hi = cubic_at(f, hi);
   const auto changes = ((at_lo > error) & (zero<V>() - at_hi > error)) | ((at_hi > error) & (zero<V>() - at_lo > error));
   const V width = max(hi - root, root - lo) * V::all(1 + 0x1p-50);
 
-  V q[3], a[3], b[3], n[3], qb[3], aq[3];
-  for (int i = 0; i < 3; ++i) {
-    q[i] = lerp(r.q[0][i], r.q[1][i], root);
-    a[i] = lerp(r.a[0][i], r.a[1][i], root);
-    b[i] = lerp(r.b[0][i], r.b[1][i], root);
-  }
-  cross(a, b, n);
-  cross(q, b, qb);
-  cross(a, q, aq);
-  const V big_n = dot(n, n), u = dot(n, qb), v = dot(n, aq);
-  const V each = (V::all(kInsideError) + V::all(kInsideSlope) * width) * ((abs(n[0]) + abs(n[1])) + abs(n[2]));
-  const V eu = each * (mq * mb) + tiny, ev = each * (ma * mq) + tiny, en = each * (ma * mb) + tiny;
+  InsideFunctions<V> at;
+  set_inside(r, root, width, mq, ma, mb, at);
   const V up = V::all(1 + 0x1p-48);
-  auto inside = (u > eu) & (v > ev);
+  auto inside = (at.u > at.eu) & (at.v > at.ev);
   if (K == 3)
-    inside = inside & (big_n - u - v > (eu + ev + en) * up);
+    inside = inside & (at.big_n - at.u - at.v > (at.eu + at.ev + at.en) * up);
   else
-    inside = inside & (big_n - u > (eu + en) * up) & (big_n - v > (ev + en) * up);
+    inside = inside & (at.big_n - at.u > (at.eu + at.en) * up) & (at.big_n - at.v > (at.ev + at.en) * up);
   return select(changes & inside & (width <= V::all(1.0 / 64)), hi, V::all(2));
 }
 

@@ -48,4 +48,16 @@ Certificates certificates_plain(bool edge_edge, const KernelPairs& pairs, int ro
 Certificates certificates_contracted(bool edge_edge, const KernelPairs& pairs, int row,
                                      const CertificateState& state);
 
+// The certificate of a contact: its cubic at a time, its inside functions there, scaled.
+struct ContactValues {
+  double scale;  // of q, a, b
+  double cubic, cubic_error;
+  double n[3], u, v, big_n;
+  double eu, ev, en;  // at any time within `width`
+};
+ContactValues contact_values_plain(bool edge_edge, const KernelPairs& pairs, int row, double time,
+                                   double width);
+ContactValues contact_values_contracted(bool edge_edge, const KernelPairs& pairs, int row, double time,
+                                        double width);
+
 }  // namespace onset::tests

@@ -1,4 +1,5 @@
-// Included once per way of compiling, with ONSET_KERNEL, ONSET_KERNEL_VALUES and ONSET_CERTIFICATES defined.
+// Included once per way of compiling, with ONSET_KERNEL, ONSET_KERNEL_VALUES, ONSET_CERTIFICATES and
+// ONSET_CONTACT_VALUES defined.
 #include "narrowphase/kernel_text.inl"
 #include "tests/narrowphase/kernel_values.hpp"
 
@@ -90,6 +91,28 @@ tests::Certificates certificates(const KernelPairs& pairs, int row, const tests:
   return r;
 }
 
+// As in touched_by.
+template <int K>
+tests::ContactValues contact(const KernelPairs& pairs, int row, double time, double width) {
+  using V = D4;
+  const int rows[4] = {row, row, row, row};
+  RelativeMotion<V> r;
+  set_relative<K>(pairs, rows, r);
+  V f[4];
+  set_contact_cubic(r, f);
+  const V mq = largest_of(r.q), ma = largest_of(r.a), mb = largest_of(r.b);
+  InsideFunctions<V> at;
+  set_inside(r, V::all(time), V::all(width), mq, ma, mb, at);
+  tests::ContactValues out;
+  out.scale = first(r.scale);
+  out.cubic = first(cubic_at(f, V::all(time)));
+  out.cubic_error = first(V::all(kCubicError) * (mq * ma * mb) + underflow<V>());
+  for (int a = 0; a < 3; ++a) out.n[a] = first(at.n[a]);
+  out.u = first(at.u), out.v = first(at.v), out.big_n = first(at.big_n);
+  out.eu = first(at.eu), out.ev = first(at.ev), out.en = first(at.en);
+  return out;
+}
+
 }  // namespace
 }  // namespace ONSET_KERNEL
 
@@ -112,6 +135,12 @@ Certificates ONSET_CERTIFICATES(bool edge_edge, const KernelPairs& pairs, int ro
                                 const CertificateState& state) {
   return edge_edge ? ONSET_KERNEL::certificates<4>(pairs, row, state)
                    : ONSET_KERNEL::certificates<3>(pairs, row, state);
+}
+
+ContactValues ONSET_CONTACT_VALUES(bool edge_edge, const KernelPairs& pairs, int row, double time,
+                                   double width) {
+  return edge_edge ? ONSET_KERNEL::contact<4>(pairs, row, time, width)
+                   : ONSET_KERNEL::contact<3>(pairs, row, time, width);
 }
 
 }  // namespace tests
