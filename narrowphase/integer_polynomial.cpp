@@ -151,7 +151,7 @@ double position_in_interval(const IsolatedRoot& root) {
   for (const Integer& x : b)
     if (!x.is_zero()) longest = std::max(longest, unsigned(msb(abs(x))));
   const unsigned shift = longest > 900 ? longest - 900 : 0;  // into the range of doubles
-  double d[4], c[4];
+  double d[4] = {}, c[4];
   for (std::size_t i = 0; i < b.size(); ++i)
     d[i] = double(b[i].sign()) * static_cast<double>(Integer(abs(b[i]) >> shift));
   c[0] = d[0], c[3] = d[b.size() - 1];
