@@ -9,8 +9,9 @@
 
 namespace onset {
 
-// Coordinates: finite, of any magnitude. A microsecond or two where contacts are isolated and not exactly on
-// the primitives' boundary; tens of microseconds elsewhere; more where magnitudes differ by more than 2^100.
+// Coordinates: finite, of any magnitude. A microsecond or two, some more where a contact is exactly on the
+// primitives' boundary; tens of microseconds where f has a double root or primitives are degenerate at the
+// contact, and where magnitudes differ by more than 2^100.
 
 // Whether they touch at a time in [from, 1], from in [0, 1].
 bool exactly_touches(const ExactPair& pair, double from = 0);

@@ -13,13 +13,13 @@ namespace {
 // Limbs for a coefficient, and for products of two, three and six.
 template <int N1, int N2, int N3, int N6>
 struct Coplanar {
-  using Coefficient = Wide<N1>;  // m + 1 bits
-  using Product = Wide<N2>;      // 2m + 4
+  using Coefficient = Wide<N1>;  // m + 3 bits: sums of three
+  using Product = Wide<N2>;      // 2m + 5: u^2 + d
   using Alpha = Wide<N3>;        // 3m + 6
   using Compared = Wide<N6>;     // 6m + 11
   static constexpr bool fits(int c) {
     return 6 * (2 * c + 7) + 11 <= 64 * N6 && 3 * (2 * c + 7) + 6 <= 64 * N3 &&
-           2 * (2 * c + 7) + 4 <= 64 * N2 && 2 * c + 8 <= 64 * N1;
+           2 * (2 * c + 7) + 5 <= 64 * N2 && 2 * c + 10 <= 64 * N1;
   }
 
   // a + b t + c t^2.
