@@ -1,6 +1,7 @@
 // The arrays behind a Mesh.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -34,5 +35,13 @@ struct MeshData {
   std::shared_ptr<FixedCache> fixed_cache;  // not null where a filter has fixed primitives
   std::shared_ptr<Spares> spares;           // not null where there is a filter
 };
+
+// The largest thickness among the vertices [first, last).
+inline double thickest(const MeshData& mesh, const int* first, const int* last) {
+  double r = 0;
+  for (; first != last && !mesh.thickness.empty(); ++first)
+    r = std::max(r, mesh.thickness[std::size_t(*first)]);
+  return r;
+}
 
 }  // namespace onset

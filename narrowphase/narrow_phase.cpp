@@ -26,12 +26,6 @@ double power_of_two_near_one_over(double x) {
   return x > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(x)) : 0x1p1000;
 }
 
-double thickness_of(const MeshData& mesh, const int* first, const int* last) {
-  double r = 0;
-  for (; first != last; ++first) r = std::max(r, mesh.thickness[std::size_t(*first)]);
-  return r;
-}
-
 void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) {
   if (kind == PairKind::vertex_face) {
     const auto& f = mesh.faces[std::size_t(p.b)];
@@ -96,8 +90,8 @@ void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
   const int first_side = kind == PairKind::vertex_face ? 1 : 2;
   for (std::size_t i = 0; i < count; ++i) {  // two sums: rounded up
     const int* v = &scratch.vertices[4 * i];
-    scratch.separation[i] = (in_.options.min_separation + thickness_of(in_.mesh, v, v + first_side) +
-                             thickness_of(in_.mesh, v + first_side, v + 4)) *
+    scratch.separation[i] = (in_.options.min_separation + thickest(in_.mesh, v, v + first_side) +
+                             thickest(in_.mesh, v + first_side, v + 4)) *
                             (1 + 0x1p-51);
   }
 }

@@ -18,13 +18,6 @@ namespace {
 // |w|_2 <= sqrt(3) |w|_inf, rounded up: beyond this the separation holds in either norm.
 double norm_ratio(const Options& options) { return options.norm == Norm::maximum ? 0x1.bb67ae8584cabp+0 : 1; }
 
-double thickest(const MeshData& mesh, const int* first, const int* last) {
-  double r = 0;
-  for (; first != last && !mesh.thickness.empty(); ++first)
-    r = std::max(r, mesh.thickness[std::size_t(*first)]);
-  return r;
-}
-
 // Rounded up, exact where there is nothing to add.
 double separation_of(const CloseInput& in, const Pair& pair) {
   const int* v = pair.vertices.data();
