@@ -32,6 +32,10 @@ void check(const Options& o) {
   if (o.threads < 0) reject("threads", o.threads, "at least 1, or 0 for the caller's arena");
 }
 
+void check_keep(double keep) {
+  if (!(keep >= 0 && keep < 1)) reject("keep", keep, "in [0, 1)");
+}
+
 double largest_separation(const MeshData& mesh, const Options& options) {
   if (mesh.thickness.empty()) return options.min_separation;
   const double thickest = *std::max_element(mesh.thickness.begin(), mesh.thickness.end());

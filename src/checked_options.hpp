@@ -9,6 +9,8 @@ namespace onset {
 
 // Throws std::invalid_argument naming the option and its value.
 void check(const Options& options);
+// The same for the share of a gap to keep.
+void check_keep(double keep);
 
 // The distance, rounded up, that the thickest pair must keep.
 double largest_separation(const MeshData& mesh, const Options& options);

@@ -87,8 +87,7 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
     : held_(new Held{mesh, options, keep, d_hat, 0, {}, {}, {}, {}, {}}) {
   check(options);
   check_d_hat(d_hat, true);
-  if (!(keep >= 0 && keep < 1))
-    throw std::invalid_argument("keep is " + std::to_string(keep) + "; it must be in [0, 1)");
+  check_keep(keep);
   const std::vector<double> x_t1 = sum(x_t0, dx);
   Held& h = *held_;
   for (std::ptrdiff_t i = 0; d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));

@@ -8,8 +8,7 @@
 #include "base/parallel.hpp"
 #include "src/checked_options.hpp"
 #include "src/clock.hpp"
-#include "src/held_pairs.hpp"
-#include "src/pass.hpp"
+#include "src/held_step.hpp"
 
 namespace onset {
 namespace {
@@ -77,19 +76,12 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
   StepResult r;
   in_arena(options.threads, [&] {
     const Clock clock;
+    Budget budget(options);
     const Motion motion = make_motion(mesh.data().num_vertices, x_t0, x_t1);
-    r.outcome = motion.status;
-    r.vertex = motion.bad_vertex;
-    if (r.outcome != Outcome::free) return;
-    const double gap = largest_separation(mesh.data(), options);
-    describe_accuracy(motion, corner_extents(mesh.data(), motion, gap), options, r.stats);
     HeldPairs held;
     for (const ClosePair& p : close) held.of(p.kind).push_back({p.a, p.b});
-    const NarrowPhase narrow({mesh.data(), motion, r.stats.tolerance, r.stats.extent, options});
-    Budget budget(options);
-    const PassResult pass = run_pass(held, narrow, Keep::limiting, 1, budget);
-    copy_counts(pass, r.stats);
-    limit_step(mesh, pass, budget, r);
+    r = step_of(mesh, motion, held, options, 0, budget);
+    if (motion.status != Outcome::free) return;
     double moved = 0;
     for (int v = 0; v < motion.num_vertices; ++v) {
       const double *a = motion.t0(v), *b = motion.t1(v);
@@ -102,7 +94,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
       r.outcome = Outcome::free;
       r.limiting = Pair{};
     }
-    r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
+    r.stats.seconds_total = clock.seconds();
   });
   return r;
 }

@@ -1,0 +1,33 @@
+#include "src/held_step.hpp"
+
+#include "base/dispatch.hpp"
+#include "base/parallel.hpp"
+#include "src/checked_options.hpp"
+#include "src/clock.hpp"
+#include "src/pass.hpp"
+
+namespace onset {
+
+StepResult step_of(const Mesh& mesh, const Motion& motion, const HeldPairs& pairs, const Options& options,
+                   double keep, Budget& budget) {
+  StepResult r;
+  const Clock clock;
+  const MeshData& data = mesh.data();
+  r.outcome = motion.status;
+  r.vertex = motion.bad_vertex;
+  r.stats.threads = current_threads();
+  r.stats.kernel = kernel_name(resolve_kernel(options.kernel));
+  r.stats.broad_phase = "listed";
+  if (r.outcome != Outcome::free) return r;
+  describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options,
+                    r.stats);
+  const double rounding = keep > 0 ? rounding_of_distances(motion) : 0;
+  const NarrowPhase narrow({data, motion, r.stats.tolerance, r.stats.extent, options, keep, rounding});
+  const PassResult pass = run_pass(pairs, narrow, Keep::limiting, 1, budget);
+  copy_counts(pass, r.stats);
+  limit_step(mesh, pass, budget, r);
+  r.stats.seconds_narrow = clock.seconds();
+  return r;
+}
+
+}  // namespace onset

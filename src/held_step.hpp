@@ -1,0 +1,15 @@
+// The step of pairs that are known: no broad phase.
+#pragma once
+
+#include "base/motion.hpp"
+#include "onset/mesh.hpp"
+#include "src/held_pairs.hpp"
+
+namespace onset {
+
+// The largest step of these pairs, each keeping the share `keep` of its gap, and the statistics. A motion
+// that cannot be used is an outcome.
+StepResult step_of(const Mesh& mesh, const Motion& motion, const HeldPairs& pairs, const Options& options,
+                   double keep, Budget& budget);
+
+}  // namespace onset
