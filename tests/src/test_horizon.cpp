@@ -3,20 +3,14 @@
 #include <onset/onset.hpp>
 
 #include "tests/catch.hpp"
-#include "tests/scenes/meshes.hpp"
+#include "tests/src/soups.hpp"
 
 using namespace onset;
 
 TEST_CASE("the step is the active set's earliest toi, for every seed, size and separation", "[property]") {
   int contacts = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
-    scenes::Random random(seed);
-    const scenes::Scene soup =
-        scenes::triangle_soup(20 + int(seed) * 10, 0.15, seed % 4 == 0 ? 0.02 : 0.2, random);
-    const Mesh mesh(soup.x_t0, soup.faces);
-    Options options;
-    options.min_separation = seed % 3 == 0 ? 1e-3 : 0;
-    options.relative_tolerance = seed % 2 == 0 ? 1e-3 : 1e-7;
+    const auto [soup, mesh, options] = tests::soup(seed, 20 + int(seed) * 10);
     const ActiveSet set = construct_active_set(mesh, soup.x_t0, soup.x_t1, options);
     const StepResult step = compute_collision_free_stepsize(mesh, soup.x_t0, soup.x_t1, options);
     double earliest = 1;
@@ -33,11 +27,8 @@ TEST_CASE("exact: the step is the earliest contact between adjacent doubles, at 
           "[property]") {
   int contacts = 0;
   for (unsigned seed = 1; seed <= 16; ++seed) {
-    scenes::Random random(seed);
-    const scenes::Scene soup =
-        scenes::triangle_soup(20 + int(seed) * 20, 0.15, seed % 4 == 0 ? 0.02 : 0.2, random);
-    const Mesh mesh(soup.x_t0, soup.faces);
-    Options options;
+    auto [soup, mesh, options] = tests::soup(seed, 20 + int(seed) * 20);
+    options.min_separation = 0;
     options.certainty = CertaintyLevel::exact;
     StepResult first;
     std::vector<std::array<int, 4>> found;

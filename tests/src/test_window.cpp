@@ -4,7 +4,7 @@
 #include <onset/onset.hpp>
 
 #include "tests/catch.hpp"
-#include "tests/scenes/meshes.hpp"
+#include "tests/src/soups.hpp"
 
 using namespace onset;
 
@@ -45,13 +45,7 @@ bool same_rows(const ActiveSet& a, const ActiveSet& b) {
 TEST_CASE("a window gives the rows of the full set within it, bit for bit", "[property][determinism]") {
   int rows = 0, dropped = 0;
   for (unsigned seed = 1; seed <= 24; ++seed) {
-    scenes::Random random(seed);
-    const scenes::Scene soup =
-        scenes::triangle_soup(20 + int(seed) * 20, 0.15, seed % 4 == 0 ? 0.02 : 0.2, random);
-    const Mesh mesh(soup.x_t0, soup.faces);
-    Options o;
-    o.min_separation = seed % 3 == 0 ? 1e-3 : 0;
-    o.relative_tolerance = seed % 2 == 0 ? 1e-3 : 1e-7;
+    auto [soup, mesh, o] = tests::soup(seed, 20 + int(seed) * 20);
     if (seed % 5 == 0) o.max_checks = 50;  // too few for a horizon
     const ActiveSet full = construct_active_set(mesh, soup.x_t0, soup.x_t1, o);
     CHECK(std::isinf(full.complete_until));

@@ -1,0 +1,25 @@
+// Seeded triangle soups, with or without a separation and at two tolerances.
+#pragma once
+
+#include <onset/onset.hpp>
+
+#include "tests/scenes/meshes.hpp"
+
+namespace onset::tests {
+
+struct Soup {
+  scenes::Scene scene;
+  Mesh mesh;
+  Options options;
+};
+
+inline Soup soup(unsigned seed, int faces) {
+  scenes::Random random(seed);
+  const scenes::Scene scene = scenes::triangle_soup(faces, 0.15, seed % 4 == 0 ? 0.02 : 0.2, random);
+  Options options;
+  options.min_separation = seed % 3 == 0 ? 1e-3 : 0;
+  options.relative_tolerance = seed % 2 == 0 ? 1e-3 : 1e-7;
+  return {scene, Mesh(scene.x_t0, scene.faces), options};
+}
+
+}  // namespace onset::tests
