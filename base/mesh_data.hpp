@@ -14,8 +14,8 @@ class FixedCache;        // base/fixed_cache.hpp
 class Spares;            // base/spares.hpp
 
 struct MeshData {
-  int num_vertices = 0;
-  std::vector<std::array<int, 2>> edges;
+  int num_vertices = 0, num_points = 0;
+  std::vector<std::array<int, 2>> edges;  // the last num_points: {v, v}, of vertices of no other
   std::vector<std::array<int, 3>> faces;
   std::vector<double> thickness;  // empty: none; else one value >= 0 a vertex
 

@@ -143,16 +143,20 @@ class Census {
     return n;
   }
 
+  // Points share their vertex with none.
+  std::size_t proper_edges() const { return mesh_.edges.size() - std::size_t(mesh_.num_points); }
+
   // Pairs at each vertex, less one for each pair of edges that share both.
   Count adjacent_edge_edge() const {
     Count n = 0;
     if (!has_keys()) {
       std::vector<Count> degree(std::size_t(mesh_.num_vertices), 0);
-      for (const auto& e : mesh_.edges) ++degree[std::size_t(e[0])], ++degree[std::size_t(e[1])];
+      for (std::size_t e = 0; e < proper_edges(); ++e)
+        for (int v : mesh_.edges[e]) ++degree[std::size_t(v)];
       for (const Count d : degree) n += d * (d - 1) / 2;
     } else {
       std::vector<Group> at(std::size_t(mesh_.num_vertices));
-      for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+      for (std::size_t e = 0; e < proper_edges(); ++e) {
         if (no_self(body_of(Primitive::edge, int(e)))) continue;
         for (int v : mesh_.edges[e])
           add(at[std::size_t(v)], kind_of(Primitive::edge, int(e)), Primitive::edge);
@@ -169,10 +173,10 @@ class Census {
       return std::uint64_t(std::max(a, b)) << 32 | std::uint64_t(std::min(a, b));
     };
     bool strictly = true;  // as derived edges are
-    for (std::size_t e = 1; e < mesh_.edges.size(); ++e) strictly = strictly && order(e - 1) < order(e);
+    for (std::size_t e = 1; e < proper_edges(); ++e) strictly = strictly && order(e - 1) < order(e);
     if (strictly) return 0;
     std::vector<std::pair<std::uint64_t, int>> sorted;
-    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) sorted.emplace_back(order(e), int(e));
+    for (std::size_t e = 0; e < proper_edges(); ++e) sorted.emplace_back(order(e), int(e));
     std::sort(sorted.begin(), sorted.end());
     Count n = 0;
     for (std::size_t first = 0, last; first < sorted.size(); first = last) {

@@ -26,7 +26,7 @@ std::array<int, 4> mapped(const std::array<int, 4>& vertices, const std::vector<
   for (std::size_t i = 0; i < 4; ++i) {
     r[i] = mapped(vertices[i], full_vertex);
     for (std::size_t j = 0; j < i; ++j)
-      if (r[j] == r[i])
+      if (r[j] == r[i] && vertices[j] != vertices[i])
         throw std::invalid_argument("full_vertex rows " + std::to_string(vertices[j]) + " and " +
                                     std::to_string(vertices[i]) + " of one contact are both " +
                                     std::to_string(r[i]));

@@ -71,6 +71,7 @@ Mesh::Mesh(const Positions& rest, const Indices& faces) : Mesh(rest.rows(), face
 
 std::ptrdiff_t Mesh::num_vertices() const { return data_->num_vertices; }
 std::ptrdiff_t Mesh::num_edges() const { return std::ptrdiff_t(data_->edges.size()); }
+std::ptrdiff_t Mesh::num_points() const { return data_->num_points; }
 std::ptrdiff_t Mesh::num_faces() const { return std::ptrdiff_t(data_->faces.size()); }
 std::array<int, 2> Mesh::edge(std::ptrdiff_t row) const { return data_->edges.at(std::size_t(row)); }
 std::array<int, 3> Mesh::face(std::ptrdiff_t row) const { return data_->faces.at(std::size_t(row)); }
@@ -188,6 +189,32 @@ void check_one_body(const char* what, const std::vector<std::array<int, N>>& ele
 }
 
 }  // namespace
+
+void Mesh::set_points(const std::vector<int>& ids) {
+  const std::size_t edges = data_->edges.size() - std::size_t(data_->num_points);
+  enum : char { none, element, point };
+  std::vector<char> part(std::size_t(num_vertices()), none);
+  for (std::size_t e = 0; e < edges; ++e)
+    for (const int v : data_->edges[e]) part[std::size_t(v)] = element;
+  for (const auto& f : data_->faces)
+    for (const int v : f) part[std::size_t(v)] = element;
+  for (std::size_t r = 0; r < ids.size(); ++r) {
+    const auto bad = [&](const std::string& why) {
+      reject("point", std::ptrdiff_t(r), "vertex " + std::to_string(ids[r]) + why);
+    };
+    if (ids[r] < 0 || ids[r] >= num_vertices())
+      bad(" is out of range, there are " + std::to_string(num_vertices()));
+    char& used = part[std::size_t(ids[r])];
+    if (used == element) bad(" belongs to an edge or a face");
+    if (used == point) bad(" is repeated");
+    used = point;
+  }
+  change([&](MeshData& data) {
+    data.edges.resize(edges);
+    for (const int v : ids) data.edges.push_back({v, v});
+    data.num_points = int(ids.size());
+  });
+}
 
 void Mesh::set_bodies(const std::vector<int>& body) {
   check_size("body", body.size(), num_vertices(), "vertices");

@@ -9,8 +9,9 @@ namespace onset {
 
 // <n, p1 - p2> >= eta (paper, section 7.1), one row a contact, in the order of the active set: with
 // x = (x y z of vertex 0, x y z of vertex 1, ...), sum_k value[k] x[dof[k]] >= bound[r] over the entries k in
-// [12 r, 12 r + 12), all of different columns. n and the weights are those at the contact's toi; x is any
-// positions, say those at the end of the step.
+// [12 r, 12 r + 12), all of different columns but for a point (Mesh::set_points), whose three come twice, the
+// second time with 0. n and the weights are those at the contact's toi; x is any positions, say those at the
+// end of the step.
 struct Constraints {
   std::vector<int> row;       // 12 entries a contact
   std::vector<int> dof;       // column: 3 vertex + axis

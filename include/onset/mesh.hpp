@@ -20,9 +20,9 @@ struct MeshData;  // base/mesh_data.hpp
 // row, or leaves the mesh as it was, and replaces what an earlier call of it set.
 //
 // Tested are vertices against faces and edges against edges. Vertices of no element (points) and edges of no
-// face (wires) take part like all others; two points, or a point and a wire, are not tested against each
-// other: they pass one another without touching unless aimed exactly, and a pair meant to keep a distance
-// needs faces.
+// face (wires) take part like all others. Two points, or a point and a wire, pass one another without
+// touching unless aimed exactly: they are tested against each other where they are declared (set_points), as
+// those that must keep a distance should be.
 //
 // A pair is left out of every call, and named by none, where any of the rules below says so; the primitives
 // left with no partner get no box. plan() counts.
@@ -39,10 +39,19 @@ class ONSET_API Mesh {
   Mesh(const Positions& rest, const Indices& faces);
 
   std::ptrdiff_t num_vertices() const;
-  std::ptrdiff_t num_edges() const;
+  std::ptrdiff_t num_edges() const;  // with those of length zero that set_points adds
   std::ptrdiff_t num_faces() const;
   std::array<int, 2> edge(std::ptrdiff_t row) const;
   std::array<int, 3> face(std::ptrdiff_t row) const;
+
+  // Points (vertices of no edge and no face) that meet each other, wires and all other edges, as particles
+  // with a separation or thickness do. Each becomes an edge {v, v} of length zero, after all others, in the
+  // order given: its pairs are edge_edge pairs by the id num_edges() - num_points() + row, whose `vertices`
+  // name v twice; the first of the two has the point's whole weight (1 or -1), the second 0. A pair with an
+  // edge of a face says no more than the point and that face do. Throws std::invalid_argument naming the row
+  // for an id out of [0, #V), repeated, or of a vertex of an edge or a face.
+  void set_points(const std::vector<int>& ids);
+  std::ptrdiff_t num_points() const;  // those set so
 
   // Thickness of each vertex (#V values >= 0, model length): a pair must stay apart by
   // Options::min_separation plus the largest thickness among the vertices of each of its two primitives.

@@ -7,7 +7,7 @@ namespace onset {
 
 // Pairs of one kind, from topology and filters alone: exact, the same for every step and broad phase.
 struct KindPlan {
-  std::int64_t pairs = 0;  // vertex-face: #V #F; edge-edge: #E (#E - 1) / 2
+  std::int64_t pairs = 0;  // vertex-face: #V #F; edge-edge: #E (#E - 1) / 2, with Mesh::set_points among #E
   // Left out, each pair under the first reason that holds:
   std::int64_t masked = 0;     // groups and masks (Mesh::set_groups); see PairPlan for very many of them
   std::int64_t fixed = 0;      // both primitives are static

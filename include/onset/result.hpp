@@ -45,7 +45,8 @@ ONSET_API const char* to_string(Certainty certainty);
 struct Pair {
   PairKind kind = PairKind::vertex_face;
   int a = -1, b = -1;
-  std::array<int, 4> vertices{-1, -1, -1, -1};  // vertex_face: v, f0, f1, f2; edge_edge: a0, a1, b0, b1
+  // vertex_face: v, f0, f1, f2; edge_edge: a0, a1, b0, b1, the same twice for a point (Mesh::set_points).
+  std::array<int, 4> vertices{-1, -1, -1, -1};
 };
 
 struct PairCounts {

@@ -4,8 +4,8 @@
 #include "tests/catch.hpp"
 #include "tests/narrowphase/fuzz.hpp"
 #include "tests/narrowphase/separation.hpp"
+#include "tests/pipeline/mesh_pairs.hpp"
 #include "tests/pipeline/scene_set.hpp"
-#include "tests/scenes/query.hpp"
 
 using namespace onset;
 using namespace onset::tests;
@@ -18,50 +18,6 @@ std::vector<double> random_thickness(const Mesh& mesh, double most, Random& rand
   std::vector<double> t(std::size_t(mesh.num_vertices()));
   for (double& x : t) x = scenes::integer(random, 0, 2) ? scenes::uniform(random, 0, most) : 0;
   return t;
-}
-
-double thickest(const std::vector<double>& t, const std::array<int, 4>& v, int first, int last) {
-  double r = 0;
-  for (int i = first; i < last; ++i) r = std::max(r, t[std::size_t(v[std::size_t(i)])]);
-  return r;
-}
-
-Query query_of(PairKind kind, const std::array<int, 4>& v, const scenes::Scene& s) {
-  Query q;
-  q.kind = kind;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t a = 0; a < 3; ++a)
-      q.t0[i][a] = s.x_t0(v[i], Eigen::Index(a)), q.t1[i][a] = s.x_t1(v[i], Eigen::Index(a));
-  return q;
-}
-
-struct Key {
-  PairKind kind;
-  int a, b;
-  bool operator<(const Key& o) const { return std::tuple(kind, a, b) < std::tuple(o.kind, o.a, o.b); }
-};
-
-// Every pair of the mesh without a common vertex: visit(kind, a, b, vertices).
-template <class F>
-void for_all_pairs(const Mesh& mesh, F&& visit) {
-  const auto apart = [](const std::array<int, 4>& v, int first) {
-    for (int i = 0; i < first; ++i)
-      for (int j = first; j < 4; ++j)
-        if (v[std::size_t(i)] == v[std::size_t(j)]) return false;
-    return true;
-  };
-  for (int v = 0; v < mesh.num_vertices(); ++v)
-    for (int f = 0; f < mesh.num_faces(); ++f) {
-      const auto c = mesh.face(f);
-      if (const std::array<int, 4> all{v, c[0], c[1], c[2]}; apart(all, 1))
-        visit(PairKind::vertex_face, v, f, all);
-    }
-  for (int a = 0; a < mesh.num_edges(); ++a)
-    for (int b = a + 1; b < mesh.num_edges(); ++b) {
-      const auto e = mesh.edge(a), g = mesh.edge(b);
-      if (const std::array<int, 4> all{e[0], e[1], g[0], g[1]}; apart(all, 2))
-        visit(PairKind::edge_edge, a, b, all);
-    }
 }
 
 }  // namespace
@@ -80,22 +36,18 @@ TEST_CASE("each pair of a scene with thickness answers as the query with that se
       o.norm = norm;
       o.tolerance = 1e-6;
       const ActiveSet active = construct_active_set(mesh, named.scene.x_t0, named.scene.x_t1, o);
-      std::vector<Key> keys;
-      for (std::size_t i = 0; i < active.size(); ++i)
-        keys.push_back({active.kind[i], active.a[i], active.b[i]});
       for_all_pairs(mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
         const int first = scenes::first_body(kind);
         const double d = 0.01 + thickest(t, v, 0, first) + thickest(t, v, first, 4);
         Query query = query_of(kind, v, named.scene);
-        const auto at = std::lower_bound(keys.begin(), keys.end(), Key{kind, a, b});
-        const bool found = at != keys.end() && !(Key{kind, a, b} < *at);
+        const std::size_t i = row_of(active, {kind, a, b});
+        const bool found = i < active.size();
         ++(found ? reported : silent);
         Options alone = o;
         alone.min_separation = d;
         const double closest = rough_distance(query, rough_closest_time(query, norm), norm);
         CAPTURE(named.name, int(kind), a, b, d, closest, int(norm));
         if (found) {
-          const std::size_t i = std::size_t(at - keys.begin());
           CHECK(closest <= d + 1.1e-6);
           const QueryResult r = ccd(query, alone);
           CHECK(std::abs(r.toi - active.toi[i]) < 1e-3);
