@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <onset/candidates.hpp>
 #include <onset/line_search.hpp>
 #include <onset/pipeline.hpp>
@@ -43,6 +45,12 @@ class CollisionMesh {
         map_(displacement_map),
         mesh_(rest_, edges_, faces_) {
     for (int v = 0; v < rest_.rows(); ++v) full_vertex_.push_back(v);
+    std::vector<bool> used(full_vertex_.size());
+    for (const Eigen::MatrixXi* ids : {&edges_, &faces_})
+      for (Eigen::Index i = 0; i < ids->size(); ++i) used[std::size_t(ids->data()[i])] = true;
+    std::copy_if(full_vertex_.begin(), full_vertex_.end(), std::back_inserter(codim_vertices_),
+                 [&](int v) { return !used[std::size_t(v)]; });
+    if (!codim_vertices_.empty()) mesh_.set_points(codim_vertices_);
   }
 
   // The surface's vertices are those of the full mesh that an edge or a face uses, in their order.
@@ -80,6 +88,9 @@ class CollisionMesh {
   std::size_t num_vertices() const { return std::size_t(rest_.rows()); }
   std::size_t num_edges() const { return std::size_t(edges_.rows()); }
   std::size_t num_faces() const { return std::size_t(faces_.rows()); }
+  // Vertices of no edge and no face, ascending: they collide with edges and each other, too.
+  const std::vector<int>& codim_vertices() const { return codim_vertices_; }
+  std::size_t num_codim_vertices() const { return codim_vertices_.size(); }
   std::size_t ndof() const { return 3 * num_vertices(); }
   std::size_t full_num_vertices() const {
     return std::size_t(map_.size() ? full_columns() : full_rest_.rows());
@@ -151,7 +162,7 @@ class CollisionMesh {
   Eigen::MatrixXd rest_, full_rest_;
   Eigen::MatrixXi edges_, faces_;
   Eigen::SparseMatrix<double> map_;
-  std::vector<int> full_vertex_;
+  std::vector<int> full_vertex_, codim_vertices_;
   onset::Mesh mesh_;
 };
 
@@ -164,6 +175,12 @@ inline Options options_of(double min_distance, const NarrowPhaseCCD& ccd) {
   return o;
 }
 
+struct VertexVertexCandidate {
+  int vertex0_id, vertex1_id;
+};
+struct EdgeVertexCandidate {
+  int edge_id, vertex_id;
+};
 struct EdgeEdgeCandidate {
   int edge0_id, edge1_id;
 };
@@ -175,6 +192,8 @@ struct FaceVertexCandidate {
 // out: data, sorted. The free functions below do not need it.
 class Candidates {
  public:
+  std::vector<VertexVertexCandidate> vv_candidates;  // of codim_vertices
+  std::vector<EdgeVertexCandidate> ev_candidates;    // the same, with any edge
   std::vector<EdgeEdgeCandidate> ee_candidates;
   std::vector<FaceVertexCandidate> fv_candidates;
 
@@ -196,24 +215,33 @@ class Candidates {
     for (const auto& p : found.vertex_face)
       if (!can || any(&p[0], 1, mesh.onset_mesh().face(p[1]).data(), 3))
         fv_candidates.push_back({p[1], p[0]});
-    for (const auto& p : found.edge_edge)
-      if (!can || any(mesh.onset_mesh().edge(p[0]).data(), 2, mesh.onset_mesh().edge(p[1]).data(), 2))
+    for (const auto& p : found.edge_edge) {
+      const auto a = mesh.onset_mesh().edge(p[0]), b = mesh.onset_mesh().edge(p[1]);
+      if (can && !any(a.data(), 2, b.data(), 2)) continue;
+      if (p[1] < int(mesh.num_edges()))
         ee_candidates.push_back({p[0], p[1]});
+      else if (p[0] < int(mesh.num_edges()))
+        ev_candidates.push_back({p[0], b[0]});
+      else
+        vv_candidates.push_back({a[0], b[0]});
+    }
   }
   void build(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices, double inflation_radius = 0,
              const BroadPhase* broad_phase = nullptr) {
     build(mesh, vertices, vertices, inflation_radius, broad_phase);
   }
 
-  std::size_t size() const { return ee_candidates.size() + fv_candidates.size(); }
+  std::size_t size() const {
+    return vv_candidates.size() + ev_candidates.size() + ee_candidates.size() + fv_candidates.size();
+  }
   bool empty() const { return size() == 0; }
-  void clear() { ee_candidates.clear(), fv_candidates.clear(); }
+  void clear() { *this = {}; }
 
   // In [0, 1]: never later than the first contact of these pairs.
   double compute_collision_free_stepsize(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
                                          const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                          const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
-    return onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(), vertices_t0, vertices_t1,
+    return onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(mesh), vertices_t0, vertices_t1,
                                                   options_of(min_distance, ccd),
                                                   1 - ccd.conservative_rescaling)
         .step;
@@ -221,14 +249,25 @@ class Candidates {
   bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
                               const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                               const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
-    const StepResult r = onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(), vertices_t0,
+    const StepResult r = onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(mesh), vertices_t0,
                                                                 vertices_t1, options_of(min_distance, ccd));
     return r.outcome == Outcome::free;
   }
 
  private:
-  onset::Candidates list() const {
+  onset::Candidates list(const CollisionMesh& mesh) const {
+    const std::vector<int>& codim = mesh.codim_vertices();
+    const auto edge_of = [&](int vertex) {
+      const auto place = std::lower_bound(codim.begin(), codim.end(), vertex);
+      if (place == codim.end() || *place != vertex)
+        throw std::invalid_argument("vertex " + std::to_string(vertex) + " is none of codim_vertices");
+      return int(mesh.num_edges()) + int(place - codim.begin());
+    };
     onset::Candidates c;
+    for (const VertexVertexCandidate& p : vv_candidates)
+      c.edge_edge.push_back({edge_of(p.vertex0_id), edge_of(p.vertex1_id)});
+    for (const EdgeVertexCandidate& p : ev_candidates)
+      c.edge_edge.push_back({p.edge_id, edge_of(p.vertex_id)});
     for (const FaceVertexCandidate& p : fv_candidates) c.vertex_face.push_back({p.vertex_id, p.face_id});
     for (const EdgeEdgeCandidate& p : ee_candidates) c.edge_edge.push_back({p.edge0_id, p.edge1_id});
     return c;

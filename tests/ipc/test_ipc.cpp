@@ -100,6 +100,40 @@ TEST_CASE("steps of the adapter are never later than the exact first contact", "
   CHECK((contacts > 6 && filtered_contacts > 2));
 }
 
+TEST_CASE("vertices of no edge or face collide with edges and each other", "[oracle][property]") {
+  int contacts = 0, of_points = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    onset::scenes::Random random(seed);
+    const auto soup = onset::scenes::triangle_soup(2, 0.5, 0.1, random);
+    MatrixXd V0(18, 3), V1(18, 3);  // two triangles, a wire and ten points on a small grid
+    V0.topRows(6) = soup.x_t0, V1.topRows(6) = soup.x_t1;
+    for (int v = 6; v < 18; ++v)
+      for (int a = 0; a < 3; ++a) V0(v, a) = onset::scenes::integer(random, -2, 2);
+    V1.bottomRows(12) = -V0.bottomRows(12);  // all through one place
+    V1.bottomRows(seed).array() += 0.125;
+    MatrixXi edges(7, 2);
+    edges << onset::edges(soup.faces), 6, 7;
+    const ipc::CollisionMesh mesh(V0, edges, soup.faces);
+    REQUIRE((mesh.num_edges() == 7 && mesh.num_codim_vertices() == 10 && mesh.codim_vertices()[0] == 8));
+    const double exact = exact_first_contact(mesh, V0, V1);
+    if (exact == 0) continue;  // some begin in one place: a step that parts them goes on
+    const double step = ipc::compute_collision_free_stepsize(mesh, V0, V1);
+    ContactForm form(mesh, 1e-3);
+    form.line_search_begin(V0, V1);
+    ipc::Candidates candidates;
+    candidates.build(mesh, V0, V1);
+    of_points += !candidates.vv_candidates.empty() && !candidates.ev_candidates.empty();
+    CAPTURE(seed, exact, step);
+    CHECK((step <= exact && form.max_step_size(V0, V1) <= exact));
+    if (exact < INFINITY) CHECK_FALSE(form.is_step_collision_free(V0, V1));
+    if (exact < INFINITY) CHECK(step > 0.4 * exact);
+    contacts += exact < INFINITY;
+    candidates.vv_candidates.push_back({0, 8});
+    CHECK_THROWS_AS(candidates.is_step_collision_free(mesh, V0, V1), std::invalid_argument);
+  }
+  CHECK((contacts > 4 && of_points > 4));
+}
+
 TEST_CASE("a surface of a full mesh takes its vertices and gives its dofs back", "[unit]") {
   // Vertices 1, 3, 4 and 0 of five are on the surface.
   MatrixXd full(5, 3);
