@@ -63,7 +63,9 @@ struct Options {
   std::int64_t memory_limit = std::numeric_limits<std::int64_t>::max();
   // time_limit: seconds since the call began, looked at every few pairs and between the phases. What it cuts
   // off depends on the machine and on the moment: the only option that does not give the same bytes each
-  // time.
+  // time. A step cut off is 0, not a shorter one: in any mesh boxes of neighbours overlap in the shortest of
+  // steps, so that one > 0 takes a look at all of these pairs, most of the cost of the whole call. Who has
+  // found their distances before has a bound for it: compute_cfl_stepsize gives that one instead of 0.
   double time_limit = std::numeric_limits<double>::infinity();
 
   // Called with the share of the pairs looked at so far, in [0, 1], now and then: first with 0, before any

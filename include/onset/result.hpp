@@ -25,7 +25,7 @@ enum class Outcome : std::uint8_t {
   non_finite,          // a position is NaN or infinite: step 0, `vertex` names the first
   out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
   // The call ended early (Options: budgets of one call); pairs that were not looked at may touch at any time:
-  // step 0.
+  // step 0 (compute_cfl_stepsize: what the distances allow).
   out_of_time,
   out_of_memory,
   out_of_checks,

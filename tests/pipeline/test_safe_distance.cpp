@@ -111,6 +111,27 @@ TEST_CASE("the CFL step is never later than the exact first contact", "[oracle][
       }
 }
 
+TEST_CASE("a CFL step out of time is the one that the distances allow", "[oracle][property]") {
+  int longer = 0;
+  for (const NamedScene& named : some_scenes())
+    for (const double d_hat : {0.05, 0.5}) {
+      CAPTURE(named.name, d_hat);
+      const Mesh mesh = named.mesh();
+      const Eigen::MatrixXd &x = named.scene.x_t0, &there = named.scene.x_t1;
+      const ClosePairs close = close_pairs(mesh, x, d_hat);
+      if (close.size() == 0) continue;  // nothing to run out of time for
+      Options o;
+      o.time_limit = 0;
+      const StepResult r = compute_cfl_stepsize(mesh, x, there, close, o);
+      const double by_gaps = safe_step(safe_distances(mesh, x, close), there - x);
+      CHECK(r.step == by_gaps);
+      CHECK((r.step <= first_contact(mesh, x, there) && r.limiting.a == -1));
+      CHECK(r.outcome == (r.step < 1 ? Outcome::out_of_time : Outcome::free));
+      longer += r.step > 0;
+    }
+  CHECK(longer > 4);
+}
+
 // The classic mistake: no pair is near, so the step is declared free.
 TEST_CASE("a fast triangle far from another is stopped by the bound", "[unit]") {
   Eigen::MatrixXd x(6, 3), there;
