@@ -93,6 +93,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     if (budget.outcome() != Outcome::free) {
       r.step = step_by_gaps(mesh, x_t0, x_t1, close);
       if (r.step == 1) r.outcome = Outcome::free;
+      r.stats.seconds_total = clock.seconds();
       return;
     }
     double moved = 0;
