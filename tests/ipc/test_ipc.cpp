@@ -3,6 +3,7 @@
 
 #include "tests/catch.hpp"
 #include "tests/oracle/oracle.hpp"
+#include "tests/pipeline/mesh_pairs.hpp"
 #include "tests/scenes/meshes.hpp"
 
 namespace ipc = onset::ipc;
@@ -38,32 +39,16 @@ class ContactForm {
 // and that may collide.
 double exact_first_contact(const ipc::CollisionMesh& mesh, const MatrixXd& V0, const MatrixXd& V1) {
   double earliest = INFINITY;
-  const onset::Mesh& m = mesh.onset_mesh();
-  const auto look = [&](onset::PairKind kind, const std::array<int, 4>& v) {
-    const int first = kind == onset::PairKind::vertex_face ? 1 : 2;
-    bool may = !mesh.can_collide;
-    onset::scenes::Query q{kind, {}, {}};
-    for (int i = 0; i < 4; ++i) {
-      for (int j = first; j < 4; ++j) {
-        if (i < first && v[i] == v[j]) return;
-        if (i < first && mesh.can_collide && mesh.can_collide(v[i], v[j])) may = true;
-      }
-      for (int a = 0; a < 3; ++a) q.t0[i][a] = V0(v[i], a), q.t1[i][a] = V1(v[i], a);
-    }
-    if (!may) return;
-    const auto truth = onset::oracle::exact_ccd(q);
-    if (truth.collides) earliest = std::min(earliest, truth.toi_hi);
-  };
-  for (int v = 0; v < m.num_vertices(); ++v)
-    for (int f = 0; f < m.num_faces(); ++f) {
-      const auto c = m.face(f);
-      look(onset::PairKind::vertex_face, {v, c[0], c[1], c[2]});
-    }
-  for (int e = 0; e < m.num_edges(); ++e)
-    for (int g = e + 1; g < m.num_edges(); ++g) {
-      const auto p = m.edge(e), q = m.edge(g);
-      look(onset::PairKind::edge_edge, {p[0], p[1], q[0], q[1]});
-    }
+  onset::tests::for_all_pairs(
+      mesh.onset_mesh(), [&](onset::PairKind kind, int, int, const std::array<int, 4>& v) {
+        const int first = onset::scenes::first_body(kind);
+        bool may = !mesh.can_collide;
+        for (int i = 0; i < first; ++i)
+          for (int j = first; j < 4; ++j) may = may || mesh.can_collide(v[i], v[j]);
+        if (!may) return;
+        const auto truth = onset::oracle::exact_ccd(onset::tests::query_of(kind, v, V0, V1));
+        if (truth.collides) earliest = std::min(earliest, truth.toi_hi);
+      });
   return earliest;
 }
 

@@ -2,13 +2,13 @@
 // demanded, on the whole interval. States are not only those that advancement reaches.
 #include <cmath>
 
-#include "narrowphase/corners.hpp"
 #include "narrowphase/interval_certificate.hpp"
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact_pair.hpp"
 #include "tests/narrowphase/fuzz.hpp"
 #include "tests/narrowphase/kernel_batch.hpp"
 #include "tests/narrowphase/kernel_values.hpp"
+#include "tests/narrowphase/query_corners.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/narrowphase/separation.hpp"
 #include "tests/oracle/distance.hpp"
@@ -119,16 +119,7 @@ TEST_CASE("every interval certified along an edge is free", "[property][oracle]"
   for_each_query(
       all_sources(), fuzz(60), 92, [&](const std::string& source, const Query& query, Random& random) {
         if (!usable(query)) return;
-        Motion motion;
-        motion.num_vertices = 4;
-        motion.x = AlignedArray<double>(4 * kMotionStride);
-        for (int i = 0; i < 4; ++i)
-          for (int a = 0; a < 4; ++a) {
-            motion.x[std::size_t(kMotionStride * i + a)] = a < 3 ? query.t0[i][a] : 0;
-            motion.x[std::size_t(kMotionStride * i + 4 + a)] = a < 3 ? query.t1[i][a] : 0;
-          }
-        const int vertices[4] = {0, 1, 2, 3};
-        const Corners corners = make_corners(query.kind, motion, vertices);
+        const Corners corners = corners_of(query);
         const Norm norm = scenes::coin(random) ? Norm::euclidean : Norm::maximum;
         const double t = scenes::unit(random);
         const double wanted = rough_distance(query, t, norm) * (1 - scenes::power_of_ten(random, -15, 0));

@@ -18,6 +18,7 @@
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact_pair.hpp"
 #include "tests/narrowphase/fuzz.hpp"
+#include "tests/narrowphase/query_corners.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/scenes/random_query.hpp"
 
@@ -27,19 +28,6 @@ using scenes::Query;
 using scenes::Random;
 
 namespace {
-
-Corners corners_of(const Query& query) {
-  Motion motion;
-  motion.num_vertices = 4;
-  motion.x = AlignedArray<double>(4 * kMotionStride);
-  for (int i = 0; i < 4; ++i)
-    for (int a = 0; a < 4; ++a) {
-      motion.x[std::size_t(kMotionStride * i + a)] = a < 3 ? query.t0[i][a] : 0;
-      motion.x[std::size_t(kMotionStride * i + 4 + a)] = a < 3 ? query.t1[i][a] : 0;
-    }
-  const int vertices[4] = {0, 1, 2, 3};
-  return make_corners(query.kind, motion, vertices);
-}
 
 // A box with the exact values at its corners.
 struct Tracked {

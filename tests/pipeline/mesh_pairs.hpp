@@ -1,12 +1,12 @@
 // Every pair of a mesh as a query of its own.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <onset/onset.hpp>
 #include <tuple>
 #include <vector>
 
-#include "tests/scenes/meshes.hpp"
 #include "tests/scenes/query.hpp"
 
 namespace onset::tests {
@@ -17,12 +17,13 @@ inline double thickest(const std::vector<double>& t, const std::array<int, 4>& v
   return r;
 }
 
-inline scenes::Query query_of(PairKind kind, const std::array<int, 4>& v, const scenes::Scene& s) {
+inline scenes::Query query_of(PairKind kind, const std::array<int, 4>& v, const Eigen::MatrixXd& x_t0,
+                              const Eigen::MatrixXd& x_t1) {
   scenes::Query q;
   q.kind = kind;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t a = 0; a < 3; ++a)
-      q.t0[i][a] = s.x_t0(v[i], Eigen::Index(a)), q.t1[i][a] = s.x_t1(v[i], Eigen::Index(a));
+      q.t0[i][a] = x_t0(v[i], Eigen::Index(a)), q.t1[i][a] = x_t1(v[i], Eigen::Index(a));
   return q;
 }
 

@@ -222,7 +222,7 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
       const QueryResult found = row(set, {kind, a, b}, 1e-7);
       Options alone = o;
       alone.min_separation = o.min_separation + thickest(t, v, 0, 2) + thickest(t, v, 2, 4);
-      const scenes::Query query = query_of(kind, v, m.scene);
+      const scenes::Query query = query_of(kind, v, m.scene.x_t0, m.scene.x_t1);
       CAPTURE(round, a, b, v[0], v[1], v[2], v[3]);
       CHECK(broken_promise(query, alone, found) == "");
       hits[is_point(m.mesh, a)] += found.collides();
@@ -295,7 +295,7 @@ TEST_CASE("points in distance sets, line searches, listed pairs and constraints"
     const ClosePairs close = close_pairs(m.mesh, x, d_hat, o);
     std::size_t next = 0;
     for_all_pairs(m.mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
-      const double distance = oracle::distance(query_of(kind, v, {x, x, {}}), 0).lo;
+      const double distance = oracle::distance(query_of(kind, v, x, x), 0).lo;
       if (std::abs(distance - d_hat - 0.01) < 1e-9) return;
       const bool listed = next < close.size() && close.pairs[next].kind == kind && close.pairs[next].a == a &&
                           close.pairs[next].b == b;

@@ -2,23 +2,13 @@
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact_pair.hpp"
 #include "tests/oracle/oracle.hpp"
+#include "tests/pipeline/mesh_pairs.hpp"
 #include "tests/pipeline/scene_set.hpp"
 
 using namespace onset;
 using namespace onset::tests;
 
 namespace {
-
-scenes::Query query_of(const Pair& pair, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1) {
-  scenes::Query q;
-  q.kind = pair.kind;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (int a = 0; a < 3; ++a) {
-      q.t0[i][std::size_t(a)] = x_t0(pair.vertices[i], a);
-      q.t1[i][std::size_t(a)] = x_t1(pair.vertices[i], a);
-    }
-  return q;
-}
 
 // Every vertex r_i along a random direction, except that the vertices of the i-th pair run at each other.
 Eigen::MatrixXd motion_within(const std::vector<double>& r, const Eigen::MatrixXd& x, const ClosePairs& close,
@@ -47,7 +37,7 @@ double first_contact(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen:
   double first = INFINITY;
   const ActiveSet set = construct_active_set(mesh, x_t0, x_t1);
   for (std::size_t i = 0; i < set.size(); ++i)
-    first = std::min(first, oracle::exact_ccd(query_of(set.pair(i), x_t0, x_t1)).toi_lo);
+    first = std::min(first, oracle::exact_ccd(query_of(set.kind[i], set.vertices[i], x_t0, x_t1)).toi_lo);
   return first;
 }
 
@@ -72,7 +62,7 @@ TEST_CASE("motion within the safe distances makes no contact", "[oracle][propert
         // Pairs that touch from the start have r = 0 and stay as they are.
         const ActiveSet set = construct_active_set(mesh, x, there, conservative);
         for (std::size_t i = 0; i < set.size(); ++i) {
-          const scenes::Query q = query_of(set.pair(i), x, there);
+          const scenes::Query q = query_of(set.kind[i], set.vertices[i], x, there);
           if (set.status[i] == Outcome::initial_contact || set.status[i] == Outcome::initial_separating)
             continue;
           ++pressed_hard;

@@ -39,7 +39,7 @@ TEST_CASE("each pair of a scene with thickness answers as the query with that se
       for_all_pairs(mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
         const int first = scenes::first_body(kind);
         const double d = 0.01 + thickest(t, v, 0, first) + thickest(t, v, first, 4);
-        Query query = query_of(kind, v, named.scene);
+        Query query = query_of(kind, v, named.scene.x_t0, named.scene.x_t1);
         const std::size_t i = row_of(active, {kind, a, b});
         const bool found = i < active.size();
         ++(found ? reported : silent);

@@ -13,22 +13,17 @@ static Meeting meeting(PairKind kind, Random& random) {
   return {integer(random, 0, 1), integer(random, 2, 3)};
 }
 
-// Vertex on vertex at exactly t = 1, all mantissa bits in use, at magnitudes 1e-12 .. 1e12.
-static Query touching_t1(PairKind kind, Random& random) {
+// Vertex on vertex at exactly one end, all mantissa bits in use, at magnitudes 1e-12 .. 1e12.
+static Query touching(PairKind kind, Random& random, bool at_t1) {
   const double size = power_of_ten(random, -12, 12);
   Query query = scaled(random_query(kind, random), size);
   const Meeting m = meeting(kind, random);
-  query.t1[m.first] = query.t1[m.second];
+  auto& end = at_t1 ? query.t1 : query.t0;
+  end[m.first] = end[m.second];
   return query;
 }
-
-static Query touching_t0(PairKind kind, Random& random) {
-  const double size = power_of_ten(random, -12, 12);
-  Query query = scaled(random_query(kind, random), size);
-  const Meeting m = meeting(kind, random);
-  query.t0[m.first] = query.t0[m.second];
-  return query;
-}
+static Query touching_t0(PairKind kind, Random& random) { return touching(kind, random, false); }
+static Query touching_t1(PairKind kind, Random& random) { return touching(kind, random, true); }
 
 // In the interior or on the boundary of both, exactly, at t = 0 or t = 1: (U, V) are quarters, a and b
 // multiples of 4.
