@@ -217,6 +217,9 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
       m.mesh.set_thickness(t);
     }
     const ActiveSet set = construct_active_set(m.mesh, m.scene.x_t0, m.scene.x_t1, o);
+    Options less = o;
+    less.certainty = CertaintyLevel::certify;
+    const ActiveSet certified = construct_active_set(m.mesh, m.scene.x_t0, m.scene.x_t1, less);
     for_all_pairs(m.mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
       if (kind == PairKind::vertex_face || !is_point(m.mesh, b)) return;
       const QueryResult found = row(set, {kind, a, b}, 1e-7);
@@ -229,6 +232,10 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
       if (!grid) return;
       const oracle::Truth truth = oracle::exact_ccd(query);
       CHECK(found.collides() == truth.collides);
+      const QueryResult other = row(certified, {kind, a, b}, 1e-7);
+      CHECK(broken_promise(query, less, other) == "");
+      if (other.certainty != Certainty::within_tolerance)
+        CHECK((truth.collides && other.toi_hi >= truth.toi_lo));
       if (!truth.collides) return;
       CHECK(found.certainty != Certainty::within_tolerance);
       CHECK(found.toi_hi >= truth.toi_lo);
