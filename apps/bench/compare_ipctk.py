@@ -10,43 +10,13 @@ time. Prints one Markdown table a number of threads; ratios are those of the rou
 import argparse
 import json
 import platform
-import statistics
-import subprocess
-import sys
-import tempfile
 import time
 
 import ipctk
 import numpy as np
+from onset_server import Onset, scene_frames, spread, timed
 
 BROAD_PHASES = ["LBVH", "HashGrid", "SpatialHash", "SweepAndPrune"]
-
-
-class Onset:
-    """The server: one process a scene, so that memory is as warm as in a simulator."""
-
-    def __init__(self, binary, a, b):
-        self.process = subprocess.Popen([binary, a, b], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-    def ask(self, *words):
-        print(*words, file=self.process.stdin, flush=True)
-        line = self.process.stdout.readline()
-        if not line:
-            sys.exit("the server ended")
-        return json.loads(line)
-
-    def frames(self):
-        with tempfile.NamedTemporaryFile() as file:
-            self.ask("dump", file.name)
-            raw = open(file.name, "rb").read()
-        v, e, f = np.frombuffer(raw, np.int64, 3)
-        x = np.frombuffer(raw, np.float64, 6 * v, 24).reshape(2, v, 3)
-        ids = np.frombuffer(raw, np.int32, 2 * e + 3 * f, 24 + 48 * v)
-        return x[0], x[1], ids[: 2 * e].reshape(e, 2), ids[2 * e :].reshape(f, 3)
-
-    def close(self):
-        self.process.stdin.close()
-        self.process.wait()
 
 
 class Peer:
@@ -64,65 +34,48 @@ class Peer:
         return len(candidates)  # the lists themselves would become Python objects
 
 
-def timed(call, clock):
-    start = clock()
-    result = call()
-    return clock() - start, result
-
-
-def spread(values, unit=1):
-    median, least, most = (f"{unit * x:.1f}" for x in (statistics.median(values), min(values), max(values)))
-    return f"{median} [{least}, {most}]"
-
-
 def shown(value):
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 class Row:
-    """One peer against one call of ours, round by round."""
+    """One call of ours against one of a peer's, round by round."""
 
-    def __init__(self, name, ours, theirs):
-        self.name, self.ours, self.theirs = name, ours, theirs
-        self.seconds = [], []
+    def __init__(self, name, ask):
+        self.name, self.ask, self.ours, self.theirs = name, ask, [], []
 
-    def round(self, threads, keep):
-        clock = time.process_time if threads == 1 else time.perf_counter
-        mine = self.ours()
-        seconds, self.their_result = timed(self.theirs, clock)
-        self.our_result = mine
-        if keep:
-            self.seconds[0].append(mine["cpu" if threads == 1 else "wall"])
-            self.seconds[1].append(seconds)
-
-    def print(self, scene):
-        ours, theirs = self.seconds
-        ratios = [b / a for a, b in zip(ours, theirs)]
-        result = ", ".join(f"{k} {shown(v)}" for k, v in self.our_result.items() if k not in ("wall", "cpu"))
-        cells = [scene, self.name, spread(ours, 1e3), spread(theirs, 1e3), spread(ratios), result, shown(self.their_result)]
+    def print(self, scene, their_result):
+        ratios = [b / a for a, b in zip(self.ours, self.theirs)]
+        result = ", ".join(f"{k} {shown(v)}" for k, v in self.result.items() if k not in ("wall", "cpu"))
+        cells = [scene, self.name, spread(self.ours, 1e3), spread(self.theirs, 1e3), spread(ratios), result, shown(their_result)]
         print("| " + " | ".join(cells) + " |", flush=True)
 
 
-def rows(onset, peer, threads):
-    def ask(*words):
-        return lambda: onset.ask(*words)
+def measure(scene, threads, repeats, theirs, rows):
+    """Prints the rows, which the same runs of the peer's call are measured against; the first round warms up."""
+    clock, key = (time.process_time, "cpu") if threads == 1 else (time.perf_counter, "wall")
+    for i in range(repeats + 1):
+        for row in rows:
+            row.result = row.ask()
+        seconds, their_result = timed(theirs, clock)
+        for row in rows[: len(rows) * (i > 0)]:
+            row.ours.append(row.result[key])
+            row.theirs.append(seconds)
+    for row in rows:
+        row.print(scene, their_result)
 
-    def step(ccd):
-        return lambda: peer.step(ccd)
 
-    tight, additive = ipctk.TightInclusionCCD(), ipctk.AdditiveCCD()
-    step_size = ask("step", threads, "1e-6")
-    active_set = ask("active-set", threads, "1e-8")
-    yield Row("step size : step size, TightInclusionCCD", step_size, step(tight))
-    yield Row("step size : step size, AdditiveCCD", step_size, step(additive))
-    yield Row("active set : step size, TightInclusionCCD", active_set, step(tight))
-    yield Row("active set : step size, AdditiveCCD", active_set, step(additive))
+def compare_scene(name, onset, peer, threads, repeats):
+    def row(what, *words):
+        return Row(what, lambda: onset.ask(words[0], threads, *words[1:]))
+
+    for ccd in (ipctk.TightInclusionCCD(), ipctk.AdditiveCCD()):
+        their_call = f"step size, {type(ccd).__name__}"
+        ours = [row(f"step size : {their_call}", "step", "1e-6"), row(f"active set : {their_call}", "active-set", "1e-8")]
+        measure(name, threads, repeats, lambda: peer.step(ccd), ours)
     for broad_phase in BROAD_PHASES:
-        yield Row(
-            f"stored pairs : Candidates.build, {broad_phase}",
-            ask("pairs", threads),
-            lambda broad_phase=broad_phase: peer.pairs(broad_phase),
-        )
+        ours = [row(f"stored pairs : Candidates.build, {broad_phase}", "pairs")]
+        measure(name, threads, repeats, lambda: peer.pairs(broad_phase), ours)
 
 
 def compare(binary, scenes, threads, repeats):
@@ -132,10 +85,7 @@ def compare(binary, scenes, threads, repeats):
     for name, (a, b) in scenes.items():
         onset = Onset(binary, a, b)
         peer = Peer(onset.frames())
-        for row in rows(onset, peer, threads):
-            for i in range(repeats + 1):
-                row.round(threads, keep=i > 0)
-            row.print(name)
+        compare_scene(name, onset, peer, threads, repeats)
         onset.close()
 
 
@@ -150,14 +100,9 @@ def arguments():
 
 def main():
     options = arguments()
-    scenes = {}
-    for scene in options.scenes:
-        name, _, frames = scene.partition("=")
-        a, _, b = frames.partition(",")
-        scenes[name] = a, b
     print(f"ipctk {ipctk.__version__}, Python {platform.python_version()}, {platform.machine()}")
     for threads in options.threads:
-        compare(options.server, scenes, threads, options.repeats)
+        compare(options.server, scene_frames(options.scenes), threads, options.repeats)
 
 
 if __name__ == "__main__":

@@ -88,7 +88,10 @@ SceneCost bench_scene(const Scene& scene, const onset::Options& options, int rep
   std::array<Call, 3> calls{{{run_set, same_set, {}, {}, {}, {}, {}},
                              {run_step, nothing, {}, {}, {}, {}, {}},
                              {run_pairs, nothing, {}, {}, {}, {}, {}}}};
-  for (Call& call : calls) call.peak = peak_bytes([&] { call.run(); });
+  for (Call& call : calls) {
+    const auto once = [&] { repeats ? void(call.run()) : call.measure(); };
+    call.peak = peak_bytes(once);
+  }
   for (int i = 0; i < repeats; ++i)
     for (Call& call : calls) call.measure();
   onset::Stats stats = set.stats;

@@ -28,8 +28,8 @@ struct SceneCost {
   double checks_a_hit() const;
 };
 
-// Runs each call once, for its memory and to warm up, then all of them in turn `repeats` (>= 1) times. Throws
-// std::runtime_error where two runs of the active set differ.
+// Runs each call once, for its memory and to warm up, then all of them in turn `repeats` times; 0: the first
+// runs are those timed. Throws std::runtime_error where two runs of the active set differ.
 SceneCost bench_scene(const Scene& scene, const onset::Options& options, int repeats);
 
 // FNV-1a over kind, a, b, the bits of toi and status, row after row: the same on every machine of the same

@@ -37,6 +37,14 @@ class Bench(AppTest):
                 spread = scene[call][clock]
                 self.assertTrue(0 < spread["min"] <= spread["median"] <= spread["max"])
 
+    def test_first_runs_timed(self):
+        first, = self.json("bench", "--cloth", "1000", "--repeats", "0")["scenes"]
+        later, = self.scenes("--cloth", "1000")
+        self.assertEqual(first["hash"], later["hash"])
+        for call in ["active_set", "step", "pairs"]:
+            self.assertGreater(first[call]["cpu"]["median"], 0)
+            self.assertEqual(first[call]["cpu"]["min"], first[call]["cpu"]["max"])
+
     def test_refined_files(self):
         a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
         once, twice = self.scenes(a, b, "--refine", "1")
