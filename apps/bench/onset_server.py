@@ -42,8 +42,8 @@ def timed(call, clock):
     return clock() - start, result
 
 
-def spread(values, unit=1):
-    median, least, most = (f"{unit * x:.1f}" for x in (statistics.median(values), min(values), max(values)))
+def spread(values, unit=1, digits=1):
+    median, least, most = (f"{unit * x:.{digits}f}" for x in (statistics.median(values), min(values), max(values)))
     return f"{median} [{least}, {most}]"
 
 
