@@ -22,14 +22,25 @@ class Onset:
             sys.exit("the server ended")
         return json.loads(line)
 
-    def frames(self):
+    def dumped(self, what):
         with tempfile.NamedTemporaryFile() as file:
-            self.ask("dump", file.name)
-            raw = open(file.name, "rb").read()
+            self.ask(what, file.name)
+            return open(file.name, "rb").read()
+
+    def frames(self):
+        """Positions at both ends, edges, faces."""
+        raw = self.dumped("dump")
         v, e, f = np.frombuffer(raw, np.int64, 3)
         x = np.frombuffer(raw, np.float64, 6 * v, 24).reshape(2, v, 3)
         ids = np.frombuffer(raw, np.int32, 2 * e + 3 * f, 24 + 48 * v)
         return x[0], x[1], ids[: 2 * e].reshape(e, 2), ids[2 * e :].reshape(f, 3)
+
+    def pairs(self):
+        """Vertex-face and edge-edge pairs whose swept boxes overlap."""
+        raw = self.dumped("dump-pairs")
+        vf, ee = np.frombuffer(raw, np.int64, 2)
+        ids = np.frombuffer(raw, np.int32, 2 * (vf + ee), 16).reshape(-1, 2)
+        return ids[:vf], ids[vf:]
 
     def close(self):
         self.process.stdin.close()

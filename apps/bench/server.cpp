@@ -6,6 +6,8 @@
 //   dump FILE                          positions and topology, raw: int64 #V, #E, #F; double x_t0, x_t1 (row
 //   after row);
 //                                      int32 edges, faces
+//   dump-pairs FILE                    pairs whose swept boxes overlap, raw: int64 #vertex-face, #edge-edge; int32
+//   pairs of these
 //   active-set THREADS TOLERANCE       the calls, at a relative tolerance
 //   step THREADS TOLERANCE
 //   pairs THREADS                      positions to stored pairs
@@ -44,6 +46,18 @@ Json dump(const app::Scene& scene, const std::string& path) {
   return {{"dumped", path}};
 }
 
+Json dump_pairs(const app::Scene& scene, const std::string& path) {
+  const onset::Candidates found = onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1);
+  std::ofstream out(path, std::ios::binary);
+  const std::int64_t sizes[2] = {found.counts.vertex_face, found.counts.edge_edge};
+  put(out, sizes, 2);
+  put(out, found.vertex_face.data(), found.vertex_face.size());
+  put(out, found.edge_edge.data(), found.edge_edge.size());
+  out.close();
+  if (!out) throw app::InputError(path + ": cannot be written");
+  return {{"dumped", path}};
+}
+
 class Server {
  public:
   explicit Server(const app::Scene& scene) : scene_(scene), pairs_(scene.mesh) {}
@@ -52,10 +66,10 @@ class Server {
     std::istringstream words(line);
     std::string what;
     words >> what;
-    if (what == "dump") {
+    if (what == "dump" || what == "dump-pairs") {
       std::string path;
       words >> path;
-      return dump(scene_, path);
+      return what == "dump" ? dump(scene_, path) : dump_pairs(scene_, path);
     }
     int threads = 1;
     onset::Options options;
