@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, profile
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
@@ -8,6 +8,7 @@ apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
 tests="catch2 libboost-dev libgmp-dev libfcl-dev pkg-config python3 python3-venv ca-certificates"
 peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
 clang="clang libclang-rt-dev"
+profile="linux-perf"
 
 wanted=
 for group; do
@@ -17,6 +18,7 @@ for group; do
     tests) wanted="$wanted $tests" ;;
     peers) wanted="$wanted $peers" ;;
     clang) wanted="$wanted $clang" ;;
+    profile) wanted="$wanted $profile" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
 done

@@ -9,11 +9,11 @@ DOCS/accuracy-and-speed.md what stands between <!-- measured: NAME --> and <!-- 
 """
 
 import json
-import re
 import sys
 from pathlib import Path
 
 import plot_trade
+from fill_measured import fill, table
 
 QUERIES = ["hand-made queries", "pairs of the scenes"]
 SETS = {"handmade": QUERIES[0], "scenes": QUERIES[1]}
@@ -67,11 +67,6 @@ def tallies(reports, keep):
             for tally in file["finders"]:
                 add(found.setdefault(tally["name"], {}), tally)
     return found
-
-
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
-    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
 
 
 def number(x):
@@ -195,13 +190,10 @@ def sections(measured):
     return parts
 
 
-def fill(path, parts):
-    def replace(match):
-        if match[1] not in parts:
-            sys.exit(f"{path}: nothing was measured for {match[1]}")
-        return f"<!-- measured: {match[1]} -->\n{parts[match[1]]}\n<!-- end -->"
-
-    path.write_text(re.sub(r"<!-- measured: (\S+) -->\n.*?<!-- end -->", replace, path.read_text(), flags=re.S))
+def part_of(parts, name):
+    if name not in parts:
+        sys.exit(f"nothing was measured for {name}")
+    return parts[name]
 
 
 def plots(measured, images):
@@ -222,7 +214,8 @@ def main():
     folder, docs = map(Path, sys.argv[1:])
     measured = Measured(folder)
     plots(measured, docs / "images")
-    fill(docs / "accuracy-and-speed.md", sections(measured))
+    parts = sections(measured)
+    fill(docs / "accuracy-and-speed.md", lambda name: part_of(parts, name))
     print(missed_line(measured))
     for name, trade in measured.trades.items():
         print(f"{name}: defaults {'on' if trade['base_on_front'] else 'NOT on'} the Pareto front")

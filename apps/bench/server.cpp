@@ -6,11 +6,9 @@
 //   dump FILE                          positions and topology, raw: int64 #V, #E, #F; double x_t0, x_t1 (row
 //   after row);
 //                                      int32 edges, faces
-//   dump-pairs FILE                    pairs whose swept boxes overlap, raw: int64 #vertex-face, #edge-edge; int32
-//   pairs of these
-//   active-set THREADS TOLERANCE       the calls, at a relative tolerance
-//   step THREADS TOLERANCE
-//   pairs THREADS                      positions to stored pairs
+//   dump-pairs FILE                    pairs whose swept boxes overlap, raw: int64 #vertex-face, #edge-edge;
+//   int32 pairs of these active-set THREADS TOLERANCE       the calls, at a relative tolerance step THREADS
+//   TOLERANCE pairs THREADS                      positions to stored pairs
 #include <cstdio>
 #include <fstream>
 #include <functional>

@@ -196,7 +196,8 @@ void add_bench(CLI::App& app, Run& run) {
                    "Divide each triangle into four, up to TIMES over, and measure each time")
       ->type_name("TIMES")
       ->check(CLI::Range(0, 8));
-  command->add_option("--repeats", inputs->repeats,
+  command
+      ->add_option("--repeats", inputs->repeats,
                    "Runs of each call, after one to warm up; 0: times that one, for scenes that take long")
       ->type_name("COUNT")
       ->check(CLI::Range(0, 1000))
