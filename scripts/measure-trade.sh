@@ -1,7 +1,7 @@
 #!/bin/sh
 # Measures the trade of speed against accuracy and writes the tables and plots of docs/accuracy-and-speed.md again.
 #   measure-trade.sh [quick]     quick: few queries and repeats, to try the script
-# Needs ONSET_DATA, the folder of the real data. About 10 minutes on 2 cores; nothing else should run meanwhile.
+# Needs ONSET_DATA, the folder of the real data. About 7 minutes on 2 cores; nothing else should run meanwhile.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build="${ONSET_BUILD:-$root/build}"
@@ -9,8 +9,8 @@ venv="$build/venv-ipctk"
 out="$build/trade"
 : "${ONSET_DATA:?the folder that holds queries/ and scenes/}"
 
-sample=3000 count=12 repeats=9 seconds=8 every=2
-[ "${1:-}" != quick ] || { sample=300 count=6 repeats=2 seconds=1 every=20; }
+sample=3000 count=12 repeats=9 seconds=4 every=2
+[ "${1:-}" != quick ] || { sample=300 count=6 repeats=2 seconds=1 every=5; }
 
 "$root/scripts/install-packages.sh" library apps tests
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
@@ -63,6 +63,14 @@ for d in 1e-2 1e-8 1e-16 1e-30 1e-100; do
   for name in handmade scenes; do
     "$build/apps/bench/onset_baselines" --every "$every" --boxes 10000 --separation "$d" "$out/$name"/*/*/data.csv \
       >"$out/separation-$name-$d.json"
+  done
+done
+
+say "tolerance"
+for delta in 1e-1 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8; do
+  for name in handmade scenes; do
+    "$build/apps/bench/onset_baselines" --every "$((10 * every))" --tolerance "$delta" "$out/$name"/*/*/data.csv \
+      >"$out/tolerance-$name-$delta.json"
   done
 done
 

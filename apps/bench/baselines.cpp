@@ -1,10 +1,12 @@
 // The library and the root finders of other codes, asked the same queries with truth.
 //
-//   onset_baselines [--every N] [--boxes N] [--separation D] FILE...
+//   onset_baselines [--every N] [--boxes N] [--separation D | --tolerance D] FILE...
 //
-// FILE: eight rows a query, the path tells the kind; exact times from toi.csv beside it, if there. Of each
-// file every N-th query. Prints JSON: the machine, and for each file what each finder answered and the
-// microseconds it took, the better of two runs for each query, CPU time where it took long.
+// --tolerance: only the finders that have one, at this: the width of the boxes that a root finder accepts,
+// the tolerance of the library. FILE: eight rows a query, the path tells the kind; exact times from toi.csv
+// beside it, if there. Of each file every N-th query. Prints JSON: the machine, and for each file what each
+// finder answered and the microseconds it took, the better of two runs for each query, CPU time where it took
+// long.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -12,6 +14,7 @@
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "error.hpp"
 #include "finder.hpp"
@@ -32,6 +35,7 @@ struct NamedFinder {
 struct Settings {
   std::size_t every = 1;
   double separation = 0;
+  std::optional<double> tolerance;  // limits.width is the same
   app::FinderLimits limits;
 };
 
@@ -42,23 +46,32 @@ Finder onset_with(const onset::Options& options) {
   };
 }
 
-std::vector<NamedFinder> finders(const Settings& s) {
-  onset::Options options, inclusion, fine, exact;
-  options.min_separation = inclusion.min_separation = fine.min_separation = exact.min_separation =
-      s.separation;
+std::vector<NamedFinder> library(const Settings& s) {
+  onset::Options options, inclusion;
+  options.min_separation = inclusion.min_separation = s.separation;
+  options.tolerance = s.tolerance;
   inclusion.narrow_phase = onset::NarrowPhaseMethod::inclusion;
-  inclusion.tolerance = 1e-6, inclusion.max_checks = s.limits.boxes;
-  fine.relative_tolerance = 1e-12;
-  exact.certainty = onset::CertaintyLevel::exact;
-  std::vector<NamedFinder> all{{"onset", onset_with(options)},
-                               {"onset, 1e-12", onset_with(fine)},
-                               {"onset, exact", onset_with(exact)},
-                               {"onset, inclusion alone", onset_with(inclusion)}};
+  inclusion.tolerance = s.limits.width, inclusion.max_checks = s.limits.boxes;
+  std::vector<NamedFinder> all{{"onset", onset_with(options)}};
+  if (!s.tolerance) {
+    onset::Options fine = options, exact = options;
+    fine.relative_tolerance = 1e-12;
+    exact.certainty = onset::CertaintyLevel::exact;
+    all.push_back({"onset, 1e-12", onset_with(fine)});
+    all.push_back({"onset, exact", onset_with(exact)});
+  }
+  all.push_back({"onset, inclusion alone", onset_with(inclusion)});
+  return all;
+}
+
+std::vector<NamedFinder> finders(const Settings& s) {
+  std::vector<NamedFinder> all = library(s);
   if (s.separation > 0) return all;  // the others know no separation
   const auto limits = s.limits;
   all.push_back({"IRF", [limits](auto kind, auto& q) { return interval_multivariate(kind, q, limits); }});
   all.push_back({"UIRF", [limits](auto kind, auto& q) { return interval_univariate(kind, q, limits); }});
-  all.push_back({"cubic", [](auto kind, auto& q) { return app::floating_point_cubic(kind, q); }});
+  if (!s.tolerance)
+    all.push_back({"cubic", [](auto kind, auto& q) { return app::floating_point_cubic(kind, q); }});
   return all;
 }
 
@@ -148,9 +161,12 @@ int main(int argc, char** argv) try {
       settings.limits.boxes = std::max(1, std::atoi(value()));
     else if (!std::strcmp(argv[i], "--separation"))
       settings.separation = std::strtod(value(), nullptr);
+    else if (!std::strcmp(argv[i], "--tolerance"))
+      settings.tolerance = settings.limits.width = std::strtod(value(), nullptr);
     else
       files.push_back(argv[i]);
   }
+  if (!(settings.limits.width > 0)) throw app::UsageError("--tolerance: a positive length");
   Json report = {{"machine", app::machine()},         {"every", settings.every},
                  {"boxes", settings.limits.boxes},    {"width", settings.limits.width},
                  {"separation", settings.separation}, {"files", Json::array()}};

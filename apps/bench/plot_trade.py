@@ -62,6 +62,26 @@ def tolerance(trades, path):
     save(figure, path)
 
 
+def finders_over_tolerance(sets, path):
+    """sets: {name: {delta: {finder: tally}}}; figure 15 of the paper."""
+    figure, panels = panels_of(2, len(sets), figsize=(4.5 * len(sets), 5.5), sharex=True, squeeze=False)
+    for (time, wrong), (name, at) in zip(zip(*panels), sets.items()):
+        for finder in next(iter(at.values())):
+            tallies = [(float(delta), found[finder]) for delta, found in at.items()]
+            draw(time, [(delta, t["total_us"] / t["queries"]) for delta, t in tallies], finder)
+            draw(wrong, [(delta, t["false_positives"]) for delta, t in tallies], finder)
+        time.set_title(name)
+        time.set_xscale("log")
+        time.set_yscale("log")
+        wrong.set_yscale("symlog", linthresh=1)
+        wrong.set_ylim(bottom=-0.5)
+        wrong.set_xlabel("delta")
+    panels[0][0].set_ylabel("us a query")
+    panels[1][0].set_ylabel("false positives")
+    legend_below(figure, panels[0][0])
+    save(figure, path)
+
+
 def earliness(trades, path):
     figure, panels = panels_of(1, 2, figsize=(9, 3.6), sharey=True)
     for panel, key in zip(panels, ("mean", "max")):

@@ -4,7 +4,7 @@
     report_trade.py MEASURED DOCS
 
 MEASURED: trade-<subject>.json of `onset trade`, baselines-<set>.json of onset_baselines, ipctk-<set>.json of ask_ipctk.py, where
-set is handmade, scenes, stability; separation-<set>-<d>.json of onset_baselines. DOCS: plots go to DOCS/images; in
+set is handmade, scenes, stability; separation-<set>-<d>.json and tolerance-<set>-<delta>.json of onset_baselines. DOCS: plots go to DOCS/images; in
 DOCS/accuracy-and-speed.md what stands between <!-- measured: NAME --> and <!-- end --> is replaced.
 """
 
@@ -14,6 +14,7 @@ from pathlib import Path
 
 import plot_trade
 from fill_measured import fill, table
+from plot_trade import axis as of_axis
 
 QUERIES = ["hand-made queries", "pairs of the scenes"]
 SETS = {"handmade": QUERIES[0], "scenes": QUERIES[1]}
@@ -43,6 +44,7 @@ PAPER_SEPARATION = {
     ("scenes", "ee"): ["14.42 354.1K 7.0K|19.12 8.3M 0", "11.12 228 1|0.73 40 0", "10.70 10 4|0.72 17 0",
                        "10.68 0 1.7K|0.67 17 0", "10.59 0 5.0K|0.68 17 0"],
 }
+TOLERANCES = [f"1e-{i}" for i in range(1, 9)]  # delta of figure 15
 SEPARATIONS = ["1e-2", "1e-8", "1e-16", "1e-30", "1e-100"]
 
 
@@ -86,6 +88,9 @@ class Measured:
         }
         self.load = (folder / "load").read_text().strip()
         self.separations = {(name, d): read(folder / f"separation-{name}-{d}.json") for name in SETS for d in SEPARATIONS}
+        self.tolerances = {
+            name: {d: tallies([read(folder / f"tolerance-{name}-{d}.json")], lambda file: True) for d in TOLERANCES} for name in SETS
+        }
 
     def group(self, name, kind):
         return tallies(self.asked[name], lambda file: file["kind"] == kind)
@@ -106,7 +111,7 @@ def paper_table(measured, name, kind):
     rows = []
     for finder, t in measured.group(name, kind).items():
         early = t["early_sum"] / max(1, t["positives"] - t["false_positives"])
-        rows.append([finder, number(t["total_us"] / t["queries"]), t["false_positives"], t["false_negatives"], time(t["slowest_us"]),
+        rows.append([finder, mean_us(t), t["false_positives"], t["false_negatives"], time(t["slowest_us"]),
                      f"{early:.2g}", t["late"], t["zero"], t["cut"]])
     queries = max(t["queries"] for t in measured.group(name, kind).values())
     head = [f"{SETS[name]}, {KINDS[kind]}: {queries}", "t, us", "FP", "FN", "slowest", "early", "late", "zero", "cut"]
@@ -118,9 +123,38 @@ def separation_table(measured, name, kind):
     rows = []
     for d, quoted in zip(SEPARATIONS, PAPER_SEPARATION[name, kind]):
         found = tallies([measured.separations[name, d]], lambda file: file["kind"] == kind)
-        cells = [f"{number(t['total_us'] / t['queries'])} / {t['false_positives']} / {t['false_negatives']}" for t in found.values()]
+        cells = [f"{mean_us(t)} / {t['false_positives']} / {t['false_negatives']}" for t in found.values()]
         rows.append([d, *cells, *(f"*{' / '.join(x.split())}*" for x in quoted.split("|"))])
     return table([f"{SETS[name]}, {KINDS[kind]}: d", *found, "*MSRF (paper)*", "*inclusion (paper)*"], rows)
+
+
+def mean_us(t):
+    return number(t["total_us"] / t["queries"])
+
+
+def certainty_table(trades):
+    rows = []
+    for name, trade in trades.items():
+        levels = {s["numbers"]["certainty"]: s for s in [trade["settings"][0], *of_axis(trade, "certainty")]}
+        for level in ("conservative", "certify", "exact"):
+            s = levels[level]
+            ratio = s["us"]["median"] / levels["conservative"]["us"]["median"]
+            rows.append([name, level, spread_cell(s["us"]), f"{ratio:.2f}", s["positives"], s["certain"], shown(s["false_positives"]),
+                         "-" if s["early"] is None else f"{s['early']['mean']:.2g}"])
+    head = ["scene", "certainty", "time, median [least, most]", "times conservative", "positives", "certain", "false pos", "early, mean"]
+    return table(head, rows)
+
+
+def tolerance_table(name, at):
+    """at: {delta: {finder: counts}}."""
+    finders = list(next(iter(at.values())))
+    queries = next(iter(at[TOLERANCES[0]].values()))["queries"]
+    rows = [[d, *(f"{mean_us(t)} / {t['false_positives']} / {t['cut']}" for t in found.values())] for d, found in at.items()]
+    return table([f"{SETS[name]}, {queries}: delta", *finders], rows)
+
+
+def spread_cell(us):
+    return f"{time(us['median'])} [{time(us['min'])}, {time(us['max'])}]"
 
 
 def shown(x):
@@ -129,7 +163,7 @@ def shown(x):
 
 def trade_row(s):
     us, early = s["us"], s["early"] or {"mean": None, "max": None}
-    return [("**yes**" if s["on_front"] else ""), s["axis"], s["value"], f"{time(us['median'])} [{time(us['min'])}, {time(us['max'])}]",
+    return [("**yes**" if s["on_front"] else ""), s["axis"], s["value"], spread_cell(us),
             s["positives"], shown(s["false_positives"]), shown(s["false_negatives"]),
             *("-" if early[k] is None else f"{early[k]:.2g}" for k in ("mean", "max")), s["budget"],
             f"{s['achieved_tolerance']:.2g}", "-" if s["peak_bytes"] is None else f"{s['peak_bytes'] / 2**20:.1f}"]
@@ -182,9 +216,10 @@ def machine_text(measured):
 
 def sections(measured):
     parts = {"machine": machine_text(measured), "fronts": front_table(measured.trades), "missed": missed_line(measured),
-             "stability": stability_table(measured)}
+             "certainty": certainty_table(measured.trades), "stability": stability_table(measured)}
     parts["paper-table-1"] = "\n\n".join(paper_table(measured, name, kind) for name in SETS for kind in KINDS)
     parts["paper-table-2"] = "\n\n".join(separation_table(measured, name, kind) for name in SETS for kind in KINDS)
+    parts["paper-figure-15"] = "\n\n".join(tolerance_table(name, at) for name, at in measured.tolerances.items())
     for name, trade in measured.trades.items():
         parts[f"trade-{name}"] = f"{trade['machine']}. Early: against {trade['reference']}.\n\n{trade_table(trade)}"
     return parts
@@ -200,6 +235,7 @@ def plots(measured, images):
     images.mkdir(parents=True, exist_ok=True)
     trades = measured.trades
     plot_trade.tolerance(trades, images / "tolerance.svg")
+    plot_trade.finders_over_tolerance({SETS[name]: at for name, at in measured.tolerances.items()}, images / "delta.svg")
     plot_trade.earliness(trades, images / "earliness.svg")
     plot_trade.max_checks(trades, images / "max-checks.svg")
     plot_trade.separation(trades, images / "separation.svg")

@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 BINARY = os.environ["ONSET_BINARY"]
+APPS = pathlib.Path(__file__).resolve().parents[2] / "apps"
 
 
 class AppTest(unittest.TestCase):

@@ -54,6 +54,18 @@ class Baselines(AppTest):
         for f in found.values():
             self.assertEqual(f["positives"], 3, f["name"])
 
+    def test_tolerance(self):
+        """The finders that have one, and wider boxes are accepted earlier."""
+        path = self.queries(vertex_face)
+        (path.parent / "toi.csv").write_text("0x1p-1,0x1p-1\ninf,inf\n0x1p-2,0x1p-2\n")
+        coarse, fine = self.finders(path, "--tolerance", "1e-2"), self.finders(path, "--tolerance", "1e-7")
+        self.assertEqual(list(fine), ["onset", "onset, inclusion alone", "IRF", "UIRF"])
+        for name in fine:
+            self.assertEqual((coarse[name]["false_negatives"], fine[name]["false_negatives"]), (0, 0), name)
+            self.assertLess(fine[name]["early_sum"], 1e-5, name)
+        for name in ["onset, inclusion alone", "IRF", "UIRF"]:
+            self.assertGreater(coarse[name]["early_sum"], 10 * fine[name]["early_sum"], name)
+
     def test_few_boxes(self):
         """A search that is cut short says so, and says contact."""
         found = self.finders(self.queries(vertex_face), "--boxes", "2")

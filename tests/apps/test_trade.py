@@ -46,6 +46,18 @@ class Trade(AppTest):
         self.assertGreater(few["budget"], 0)
         self.assertGreater(few["early"]["mean"], 0)
 
+    def test_certainty(self):
+        """Each level marks at least as many contacts certain as the one before, exact all of them."""
+        a, b, found = self.soup()
+        base, *others = self.trade(a, b, "--axis", "certainty")["settings"]
+        levels = {s["numbers"]["certainty"]: s for s in [base, *others]}
+        self.assertEqual([s["value"] for s in others], ["conservative", "exact"])
+        self.assertEqual(base["numbers"]["certainty"], "certify")
+        self.assertEqual(levels["conservative"]["certain"], 0)
+        self.assertGreater(levels["certify"]["certain"], 0)
+        self.assertEqual(levels["exact"]["certain"], levels["exact"]["positives"])
+        self.assertLessEqual(levels["exact"]["positives"], levels["conservative"]["positives"])
+
     def test_what_is_missed_is_counted(self):
         """A truth that names a pair which never meets: one false negative in every setting."""
         a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))

@@ -35,6 +35,7 @@ struct Earliness {
 struct Answers {
   std::int64_t asked = 0;  // candidates of a scene, or queries
   std::int64_t positives = 0, budget = 0, inclusion = 0, checks = 0;
+  std::int64_t certain = 0;                                      // of the positives: known to be contacts
   std::optional<std::int64_t> false_positives, false_negatives;  // where the truth is known for this question
   std::optional<Earliness> early;                                // where there is a reference
   double tolerance = 0;                                          // asked for; of queries: the largest

@@ -50,12 +50,19 @@ Json early_json(const std::optional<Earliness>& e) {
   return {{"pairs", e->pairs}, {"mean", e->mean()}, {"max", e->most}, {"zero", e->zero}, {"late", e->late}};
 }
 
+const char* word(onset::CertaintyLevel c) {
+  return c == onset::CertaintyLevel::exact     ? "exact"
+         : c == onset::CertaintyLevel::certify ? "certify"
+                                               : "conservative";
+}
+
 Json options_json(const onset::Options& o) {
   return {{"tolerance", or_null(o.tolerance)},
           {"relative_tolerance", o.relative_tolerance},
           {"min_separation", o.min_separation},
           {"norm", o.norm == onset::Norm::maximum ? "maximum" : "euclidean"},
           {"max_checks", o.max_checks},
+          {"certainty", word(o.certainty)},
           {"threads", o.threads}};
 }
 
@@ -72,6 +79,7 @@ Json measured_json(const Measured& m, bool on_front) {
           {"cpu_us", spread_json(m.cpu)},
           {"asked", a.asked},
           {"positives", a.positives},
+          {"certain", a.certain},
           {"false_positives", or_null(a.false_positives)},
           {"false_negatives", or_null(a.false_negatives)},
           {"early", early_json(a.early)},
