@@ -8,7 +8,7 @@ apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
 tests="catch2 libboost-dev libgmp-dev libfcl-dev pkg-config python3 python3-venv ca-certificates"
 peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
 clang="clang libclang-rt-dev"
-profile="linux-perf"
+profile="linux-perf valgrind"
 
 wanted=
 for group; do

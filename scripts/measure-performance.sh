@@ -1,8 +1,9 @@
 #!/bin/sh
 # Measures speed and memory and writes the tables of docs/performance.md again.
-#   measure-performance.sh [quick] [PART ...]     parts: ipctk, candidates, peers, threads, size, huge, profile, memory; default: all
+#   measure-performance.sh [quick] [PART ...]     parts: ipctk, candidates, peers, threads, size, huge, profile, memory,
+#                                                 traffic; default: all
 # quick: one small scene, few repeats, to try the script; writes build/performance-quick/performance.md instead.
-# Needs ONSET_DATA, the folder of the real data. About 12 minutes on 2 cores and 16 GiB; nothing else should run meanwhile.
+# Needs ONSET_DATA, the folder of the real data. About 14 minutes on 2 cores and 16 GiB; nothing else should run meanwhile.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build="${ONSET_BUILD:-$root/build}"
@@ -20,10 +21,10 @@ if [ "${1:-}" = quick ]; then
   mkdir -p "$out" && cp "$document" "$out/performance.md"
   document="$out/performance.md"
 fi
-[ $# -gt 0 ] || { rm -f "$out"/*.md.part "$out/load"; set -- ipctk candidates peers threads size huge profile memory; }
+[ $# -gt 0 ] || { rm -rf "$out/load"; set -- ipctk candidates peers threads size huge profile memory traffic; }
 
 "$root/scripts/install-packages.sh" library apps peers
-command -v perf >/dev/null || "$root/scripts/install-packages.sh" profile
+{ command -v perf && command -v valgrind; } >/dev/null || "$root/scripts/install-packages.sh" profile
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
 [ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DONSET_BUILD_TESTS=OFF -DONSET_BUILD_APPS=ON >&2
 cmake --build "$build" --parallel "$(nproc)" \
@@ -74,6 +75,9 @@ measure() {  # part, scenes
       python profile.py --server "$server" "$@" --seconds "$seconds" ;;
     memory)
       "$build/apps/bench/onset_memory_bandwidth" "$mib" ;;
+    traffic)
+      copied=$(awk -F '|' '$2 == " 1 " { print $3 }' "$out/memory.md")
+      python memory_traffic.py --server "$server" --copied "$copied" "$@" ;;
     *)
       echo "measure-performance.sh: no part '$part'" >&2
       exit 2 ;;
