@@ -21,7 +21,7 @@ if [ "${1:-}" = quick ]; then
   mkdir -p "$out" && cp "$document" "$out/performance.md"
   document="$out/performance.md"
 fi
-[ $# -gt 0 ] || { rm -rf "$out/load"; set -- ipctk candidates peers threads size huge profile memory traffic; }
+[ $# -gt 0 ] || { rm -f "$out/load"; set -- ipctk candidates peers threads size huge profile memory traffic; }
 
 "$root/scripts/install-packages.sh" library apps peers
 { command -v perf && command -v valgrind; } >/dev/null || "$root/scripts/install-packages.sh" profile
