@@ -156,7 +156,7 @@ inline V initial_gap(const V (&c)[K][3], V error) {  // the point found errs by 
 // s = max_k c_k + m, and with s = m - min_k c_k; between two ends of opposite sign that begins or ends at s0 / (s0 - s1). Signs are
 // exact, each root is known within 6u: 2^-20 = 16u is taken off.
 template <int K>
-inline MaskF8 never_together(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
+inline F8::Mask never_together(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
   using V = F8;
   V begin = zero<V>(), end = one<V>();
   for (int a = 0; a < 3; ++a) {
