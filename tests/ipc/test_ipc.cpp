@@ -2,6 +2,7 @@
 #include <onset/ipc.hpp>
 
 #include "tests/catch.hpp"
+#include "tests/narrowphase/fuzz.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/pipeline/mesh_pairs.hpp"
 #include "tests/scenes/meshes.hpp"
@@ -55,9 +56,10 @@ double exact_first_contact(const ipc::CollisionMesh& mesh, const MatrixXd& V0, c
 }  // namespace
 
 TEST_CASE("steps of the adapter are never later than the exact first contact", "[oracle][property]") {
+  const int seeds = std::max(4, onset::tests::fuzz(12));
   int contacts = 0, filtered_contacts = 0;
-  for (unsigned seed = 1; seed <= 12; ++seed) {
-    onset::scenes::Random random(seed);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    onset::scenes::Random random{unsigned(seed)};
     const auto soup = onset::scenes::triangle_soup(16, 0.3, seed % 4 == 0 ? 0.02 : 0.3, random);
     const MatrixXd V0 = soup.x_t0, V1 = soup.x_t1;
     ipc::CollisionMesh mesh(V0, onset::edges(soup.faces), soup.faces);
@@ -82,7 +84,7 @@ TEST_CASE("steps of the adapter are never later than the exact first contact", "
       if (exact < INFINITY && exact > 0) CHECK(step > 0.4 * exact);
     }
   }
-  CHECK((contacts > 6 && filtered_contacts > 2));
+  CHECK((contacts > seeds / 2 && filtered_contacts > 0));
 }
 
 TEST_CASE("vertices of no edge or face collide with edges and each other", "[oracle][property]") {

@@ -24,6 +24,7 @@ std::vector<double> random_thickness(const Mesh& mesh, double most, Random& rand
 
 TEST_CASE("each pair of a scene with thickness answers as the query with that separation", "[property]") {
   Random random(111);
+  const int every = std::max(1, 4 / fuzz(4));  // of the pairs that are not reported
   int reported = 0, silent = 0;
   for (NamedScene named : {some_scenes()[1], some_scenes()[3], some_scenes()[7]})
     for (Norm norm : {Norm::euclidean, Norm::maximum}) {
@@ -43,6 +44,7 @@ TEST_CASE("each pair of a scene with thickness answers as the query with that se
         const std::size_t i = row_of(active, {kind, a, b});
         const bool found = i < active.size();
         ++(found ? reported : silent);
+        if (!found && silent % every != 0) return;
         Options alone = o;
         alone.min_separation = d;
         const double closest = rough_distance(query, rough_closest_time(query, norm), norm);
