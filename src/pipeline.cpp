@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
+#include "base/primitive_filter.hpp"
 #include "src/checked_options.hpp"
 #include "src/contact_rows.hpp"
 #include "src/pass.hpp"
@@ -66,8 +67,9 @@ PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep
                Stats& stats) {
   const double begun = scene.clock.seconds();
   const bool exact_times = options.certainty == CertaintyLevel::exact && keep != Keep::all;
+  const bool fixed = mesh.data().filter->has_fixed();  // static vertices cost no pass over them in every call
   const NarrowPhase narrow(
-      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times, true});
+      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times, !fixed});
   const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
   const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, stats) : 1;
   PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1,
