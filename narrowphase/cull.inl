@@ -56,7 +56,9 @@ inline void float_corners(const KernelPairs& pairs, const int* rows, FloatPairs<
 }
 
 // The same from rounded positions. The difference of two errs by what these do, and by u of itself in place of the rounding to
-// float above; the lerp to the horizon adds 3u. Whatever is added up then, the vertices' errors weigh no more than |w|.
+// float above. A corner (1 - t) a + t b cut short at the horizon t errs, with |t b| <= 2 rho for the rho of what is left, by 3u
+// more for t's own rounding to float, 5u for its terms and their sum, and u for b: 16u with the 7u above.
+// Whatever is added up then, the vertices' errors weigh no more than |w|.
 template <int K>
 inline void rounded_corners(const KernelPairs& pairs, const int* rows, FloatPairs<K>& out) {
   using V = F8;
@@ -70,11 +72,12 @@ inline void rounded_corners(const KernelPairs& pairs, const int* rows, FloatPair
     of_vertex[i] = x[3];
   }
   for (int end = 0; end < 2; ++end) corners_of(p[end], out.c[end]);
-  if (pairs.horizon < 1) cut_short(out.c, V::all(static_cast<float>(pairs.horizon)));
+  const bool is_cut = pairs.horizon < 1;
+  if (is_cut) cut_short(out.c, V::all(static_cast<float>(pairs.horizon)));
   out.d = float_separation(pairs, rows);
   const V of_positions = K == 3 ? of_vertex[0] + max(of_vertex[1], max(of_vertex[2], of_vertex[3]))
                                 : max(of_vertex[0], of_vertex[1]) + max(of_vertex[2], of_vertex[3]);
-  out.error = (V::all(10 * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
+  out.error = (V::all((is_cut ? 16 : 10) * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
 
 // Whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: the Bernstein coefficients
