@@ -214,8 +214,9 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   stats.checks += found.checks - checked.checks;
   std::int64_t checks = found.checks;
   if (found.verdict == Verdict::free) return;
-  if ((found.verdict == Verdict::stalled && truth.answer == Answer::unknown) ||
-      (found.verdict == Verdict::budget && inclusion_only)) {
+  const bool searches = (found.verdict == Verdict::stalled && truth.answer == Answer::unknown) ||
+                        (found.verdict == Verdict::budget && inclusion_only);
+  if (searches) {
     const InclusionResult searched =
         find_first_inclusion({corners_of(c), found.t, d, found.delta, in_.options.norm == Norm::maximum,
                               in_.options.max_checks - checks});
@@ -237,9 +238,12 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   const bool later =
       real && truth.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
   if (later) found.t = truth.time.lo;
-  // These moved on after their last look.
-  if (found.verdict != Verdict::contact || found.checks <= 1 || later)
-    found.distance = distance_at(c, found.t);
+  // These moved on after their last look; where the inclusion root finder did, it has a bound of its own,
+  // which is the sharper one for slivers.
+  if (found.verdict != Verdict::contact || found.checks <= 1 || later) {
+    const double known = searches && !later ? found.distance : INFINITY;
+    found.distance = std::min(known, distance_at(c, found.t));
+  }
   // Corners move by at most 2 rho in the whole step, so far apart is a pair that has touched by time.hi.
   if (later)
     found.distance = std::min(
