@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/fixed_cache.hpp"
-#include "base/spares.hpp"
 #include "base/pair_census.hpp"
+#include "base/spares.hpp"
 
 namespace onset {
 namespace {

@@ -1,7 +1,6 @@
 // Sorting by a 64-bit key in a few passes over the items.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

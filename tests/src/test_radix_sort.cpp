@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "base/radix_sort.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/random_query.hpp"
