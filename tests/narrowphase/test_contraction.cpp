@@ -1,9 +1,9 @@
 // The whole library once more, compiled with -mavx2 -mfma -ffp-contract=fast: other bits, the same promises.
 // No proof relies on what a compiler fuses.
 #include "tests/catch.hpp"
+#include "tests/narrowphase/check_promises.hpp"
 #include "tests/narrowphase/fuzz.hpp"
 #include "tests/narrowphase/samples.hpp"
-#include "tests/narrowphase/separation.hpp"
 #include "tests/scenes/data.hpp"
 #include "tests/scenes/query_file.hpp"
 
@@ -13,13 +13,6 @@ using scenes::Query;
 using scenes::Random;
 
 namespace {
-
-void check_promises(const std::string& source, const Query& query, const Options& options) {
-  const QueryResult result = ccd(query, options);
-  if (const std::string broken = broken_promise(query, options, result); !broken.empty())
-    FAIL_CHECK(source << ": " << broken << "\n  " << to_text(query) << "\n  "
-                      << oracle::to_text(options, result));
-}
 
 bool can_run() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
 

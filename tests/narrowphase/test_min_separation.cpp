@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/catch.hpp"
+#include "tests/narrowphase/check_promises.hpp"
 #include "tests/narrowphase/fuzz.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/narrowphase/separation.hpp"
@@ -32,13 +33,6 @@ double some_separation(const Query& query, Norm norm, Random& random) {
     default:
       return size * scenes::power_of_ten(random, 0, 6);  // larger than the pair
   }
-}
-
-void check_promises(const std::string& source, const Query& query, const Options& options) {
-  const QueryResult result = ccd(query, options);
-  if (const std::string broken = broken_promise(query, options, result); !broken.empty())
-    FAIL_CHECK(source << ": " << broken << "\n  " << to_text(query) << "\n  "
-                      << oracle::to_text(options, result));
 }
 
 bool measurable(const Query& query) {

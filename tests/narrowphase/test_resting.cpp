@@ -35,8 +35,14 @@ void slide(std::array<Point, 4>& x, Random& random) {
     p[0] += step[0], p[1] += step[1];
   }
 }
-void lower(Query& query, double by) {
-  for (int i = 0; i < scenes::first_body(query.kind); ++i) query.t1[i][2] -= by;
+
+// At `distance` at the start; it slides, and comes closer by so much.
+Query sliding(PairKind kind, double distance, double closer, Random& random) {
+  Query query{kind, crossing(kind, distance, random), {}};
+  query.t1 = query.t0;
+  slide(query.t1, random);
+  for (int i = 0; i < scenes::first_body(kind); ++i) query.t1[i][2] -= closer;
+  return query;
 }
 
 void expect_free(const char* what, const Query& query, double d = 0, Norm norm = Norm::euclidean) {
@@ -80,9 +86,7 @@ TEST_CASE("a pair at rest, or carried along, is free at any gap", "[property]") 
 
 TEST_CASE("a pair that slides at a constant gap is free", "[property]") {
   for_gaps(42, [](PairKind kind, double gap, Random& random) {
-    Query query{kind, crossing(kind, gap, random), {}};
-    query.t1 = query.t0;
-    slide(query.t1, random);
+    Query query = sliding(kind, gap, 0, random);
     turn_and_scale(query, random);
     expect_free("sliding", query);
   });
@@ -90,10 +94,7 @@ TEST_CASE("a pair that slides at a constant gap is free", "[property]") {
 
 TEST_CASE("a pair that grows apart is free at any gap", "[property]") {
   for_gaps(43, [](PairKind kind, double gap, Random& random) {
-    Query query{kind, crossing(kind, gap, random), {}};
-    query.t1 = query.t0;
-    slide(query.t1, random);
-    lower(query, -gap * scenes::integer(random, 1, 9));
+    Query query = sliding(kind, gap, -gap * scenes::integer(random, 1, 9), random);
     turn_and_scale(query, random);
     expect_free("growing", query);
   });
@@ -101,10 +102,7 @@ TEST_CASE("a pair that grows apart is free at any gap", "[property]") {
 
 TEST_CASE("an approach that keeps a quarter of the gap is free", "[property]") {
   for_gaps(44, [](PairKind kind, double gap, Random& random) {
-    Query query{kind, crossing(kind, gap, random), {}};
-    query.t1 = query.t0;
-    slide(query.t1, random);
-    lower(query, scenes::uniform(random, 0, 0.74) * gap);
+    Query query = sliding(kind, gap, scenes::uniform(random, 0, 0.74) * gap, random);
     turn_and_scale(query, random);
     expect_free("approaching", query);
   });
@@ -115,10 +113,7 @@ TEST_CASE("beyond a minimum separation resting pairs are free as well", "[proper
   for (Norm norm : {Norm::euclidean, Norm::maximum})
     for_gaps(45, [&](PairKind kind, double gap, Random& random) {
       const double d = std::ldexp(1.0, -scenes::integer(random, 0, 20));
-      Query query{kind, crossing(kind, d + gap, random), {}};
-      query.t1 = query.t0;
-      slide(query.t1, random);
-      lower(query, scenes::uniform(random, -1, 0.7) * gap);
+      Query query = sliding(kind, d + gap, scenes::uniform(random, -1, 0.7) * gap, random);
       query = transformed(query, scenes::signed_permutation(random));
       expect_free("beyond d", query, d, norm);
     });
@@ -128,10 +123,7 @@ TEST_CASE("beyond a minimum separation resting pairs are free as well", "[proper
 // three quarters or later, at any tolerance.
 TEST_CASE("an approach that closes the gap is reported", "[property]") {
   for_gaps(46, [](PairKind kind, double gap, Random& random) {
-    Query query{kind, crossing(kind, gap, random), {}};
-    query.t1 = query.t0;
-    slide(query.t1, random);
-    lower(query, 2 * gap);
+    Query query = sliding(kind, gap, 2 * gap, random);
     turn_and_scale(query, random);
     for (double tolerance : {1e3, 1e-6, 1e-14}) {
       Options o;
