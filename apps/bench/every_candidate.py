@@ -9,12 +9,11 @@ less what the same calls from Python cost with a function that only tests two bo
 thread, CPU time; ratios are those of the samples, median [least, most]. Prints Markdown.
 """
 
-import argparse
 import time
 
 import ipctk
 import numpy as np
-from onset_server import Onset, scene_frames, spread, timed
+from onset_server import Onset, scene_frames, scene_parser, spread, timed
 
 ENOUGH = 30_000  # pairs of a sample
 RESCALINGS = [ipctk.TightInclusionCCD().conservative_rescaling, 1.0]
@@ -68,9 +67,7 @@ def samples_of(onset, frames, pairs, options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="+", metavar="NAME=A,B")
-    parser.add_argument("--server", required=True)
+    parser = scene_parser(__doc__)
     parser.add_argument("--every", type=int, default=60)
     parser.add_argument("--samples", type=int, default=3)
     options = parser.parse_args()

@@ -9,11 +9,10 @@ last column is an upper bound of the share of the time that memory can take: as 
 while something is computed. One thread. Prints Markdown.
 """
 
-import argparse
 import subprocess
 import tempfile
 
-from onset_server import Onset, scene_frames, spread
+from onset_server import Onset, scene_frames, scene_parser, spread
 
 LINE = 64
 ASK = ("active-set", 1, "1e-8")
@@ -40,9 +39,7 @@ def measured(server, frames, rounds=5):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="+", metavar="NAME=A,B")
-    parser.add_argument("--server", required=True)
+    parser = scene_parser(__doc__)
     parser.add_argument("--copied", type=float, required=True)
     parser.add_argument("--cache", type=int, default=1 << 20)
     options = parser.parse_args()

@@ -1,5 +1,6 @@
 """onset_bench_server from Python: frames, and calls that are timed where they run."""
 
+import argparse
 import json
 import statistics
 import subprocess
@@ -56,6 +57,14 @@ def timed(call, clock):
 def spread(values, unit=1, digits=1):
     median, least, most = (f"{unit * x:.{digits}f}" for x in (statistics.median(values), min(values), max(values)))
     return f"{median} [{least}, {most}]"
+
+
+def scene_parser(description):
+    """Of a command line with scenes, as scene_frames takes them, and the server's binary."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="+", metavar="NAME=A,B")
+    parser.add_argument("--server", required=True)
+    return parser
 
 
 def scene_frames(scenes):

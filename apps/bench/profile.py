@@ -7,7 +7,6 @@ One thread. A symbol belongs to the first stage below whose pattern it has; what
 --others lists on stderr the symbols that no pattern has. Needs perf, with cpu-clock samples allowed. Prints Markdown.
 """
 
-import argparse
 import re
 import signal
 import subprocess
@@ -15,7 +14,7 @@ import sys
 import tempfile
 import time
 
-from onset_server import Onset, scene_frames
+from onset_server import Onset, scene_frames, scene_parser
 
 STAGES = {
     "order of the contacts": r"FoundPair|Pass::(take|merge)|radix_sort|Place",
@@ -67,9 +66,7 @@ def shares(found):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="+", metavar="NAME=A,B")
-    parser.add_argument("--server", required=True)
+    parser = scene_parser(__doc__)
     parser.add_argument("--seconds", type=float, default=4)
     parser.add_argument("--others", action="store_true")
     options = parser.parse_args()

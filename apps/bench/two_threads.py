@@ -6,9 +6,7 @@
 Ratios are those of the rounds' times, median [least, most]. Prints Markdown.
 """
 
-import argparse
-
-from onset_server import Onset, scene_frames, spread
+from onset_server import Onset, scene_frames, scene_parser, spread
 
 CALLS = {"active set": ("active-set", "1e-8"), "step": ("step", "1e-6")}  # and relative tolerance
 
@@ -20,9 +18,7 @@ def measure(onset, call, tolerance, rounds):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="+", metavar="NAME=A,B")
-    parser.add_argument("--server", required=True)
+    parser = scene_parser(__doc__)
     parser.add_argument("--rounds", type=int, default=15)
     options = parser.parse_args()
     print("| scene | call | one thread, ms | two threads, ms | times as fast |\n|---|---|---|---|---|")
