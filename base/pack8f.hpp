@@ -43,8 +43,19 @@ struct I8 {
 
 inline F8 load(const float* p) { return {_mm256_loadu_ps(p)}; }
 inline F8 broadcast(const float* p) { return {_mm256_broadcast_ss(p)}; }
+inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
+  return {_mm256_setr_ps(p[0][i], p[1][i], p[2][i], p[3][i], p[4][i], p[5][i], p[6][i], p[7][i])};
+}
 inline void store(float* p, F8 x) { _mm256_storeu_ps(p, x.v); }
+inline F8 broadcast(float x) { return {_mm256_set1_ps(x)}; }
 inline F8 operator+(F8 a, F8 b) { return {_mm256_add_ps(a.v, b.v)}; }
+inline F8 operator-(F8 a, F8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
+inline F8 operator*(F8 a, F8 b) { return {_mm256_mul_ps(a.v, b.v)}; }
+inline F8 operator/(F8 a, F8 b) { return {_mm256_div_ps(a.v, b.v)}; }
+inline F8 operator&(F8 a, F8 b) { return {_mm256_and_ps(a.v, b.v)}; }  // of bits
+inline F8 operator|(F8 a, F8 b) { return {_mm256_or_ps(a.v, b.v)}; }
+inline F8 abs(F8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+inline F8 where_negative(F8 sign, F8 a, F8 b) { return {_mm256_blendv_ps(b.v, a.v, sign.v)}; }  // a there, else b
 inline F8 min(F8 a, F8 b) { return {_mm256_min_ps(a.v, b.v)}; }
 inline F8 max(F8 a, F8 b) { return {_mm256_max_ps(a.v, b.v)}; }
 inline int mask_not_negative(F8 a) { return ~_mm256_movemask_ps(a.v) & 0xff; }  // by the sign bit
@@ -52,6 +63,9 @@ inline int mask_neither_negative(F8 a, I8 b) {  // neither sign bit set, -0.0 co
   return ~_mm256_movemask_ps(_mm256_or_ps(a.v, _mm256_castsi256_ps(b.v))) & 0xff;
 }
 inline int mask_zero(F8 a) { return _mm256_movemask_ps(_mm256_cmp_ps(a.v, _mm256_setzero_ps(), _CMP_EQ_OQ)); }
+inline int mask_negative(F8 a) { return _mm256_movemask_ps(a.v); }  // by the sign bit
+inline int mask_not_positive(F8 a) { return _mm256_movemask_ps(_mm256_cmp_ps(a.v, _mm256_setzero_ps(), _CMP_LE_OQ)); }
+inline int mask_greater(F8 a, F8 b) { return _mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)); }
 
 inline I8 load(const int* p) { return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))}; }
 inline I8 broadcast(int x) { return {_mm256_set1_epi32(x)}; }
@@ -131,8 +145,25 @@ inline F8 broadcast(const float* p) {
   const Float4 x{*p, *p, *p, *p};
   return {x, x};
 }
+inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
+  return {Float4{p[0][i], p[1][i], p[2][i], p[3][i]}, Float4{p[4][i], p[5][i], p[6][i], p[7][i]}};
+}
 inline void store(float* p, F8 x) { __builtin_memcpy(p, &x, sizeof x); }
+inline F8 broadcast(float x) { return broadcast(&x); }
 inline F8 operator+(F8 a, F8 b) { return {a.lo + b.lo, a.hi + b.hi}; }
+inline F8 operator-(F8 a, F8 b) { return {a.lo - b.lo, a.hi - b.hi}; }
+inline F8 operator*(F8 a, F8 b) { return {a.lo * b.lo, a.hi * b.hi}; }
+inline F8 operator/(F8 a, F8 b) { return {a.lo / b.lo, a.hi / b.hi}; }
+inline F8 operator&(F8 a, F8 b) {  // of bits
+  return {(Float4)((Int4)a.lo & (Int4)b.lo), (Float4)((Int4)a.hi & (Int4)b.hi)};
+}
+inline F8 operator|(F8 a, F8 b) {
+  return {(Float4)((Int4)a.lo | (Int4)b.lo), (Float4)((Int4)a.hi | (Int4)b.hi)};
+}
+inline F8 abs(F8 a) { return {(Float4)((Int4)a.lo & 0x7fffffff), (Float4)((Int4)a.hi & 0x7fffffff)}; }
+inline F8 where_negative(F8 sign, F8 a, F8 b) {  // a there, else b
+  return {(Int4)sign.lo < 0 ? a.lo : b.lo, (Int4)sign.hi < 0 ? a.hi : b.hi};
+}
 inline F8 min(F8 a, F8 b) { return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? a.hi : b.hi}; }
 inline F8 max(F8 a, F8 b) { return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi}; }
 
@@ -153,6 +184,9 @@ inline int mask_neither_negative(F8 a, I8 b) {  // neither sign bit set, -0.0 co
 }
 inline int mask_not_negative(F8 a) { return ~mask_true({(Int4)a.lo, (Int4)a.hi}) & 0xff; }
 inline int mask_zero(F8 a) { return mask_true({a.lo == 0, a.hi == 0}); }
+inline int mask_negative(F8 a) { return mask_true({(Int4)a.lo, (Int4)a.hi}); }  // by the sign bit
+inline int mask_not_positive(F8 a) { return mask_true({a.lo <= 0, a.hi <= 0}); }
+inline int mask_greater(F8 a, F8 b) { return mask_true({a.lo > b.lo, a.hi > b.hi}); }
 
 inline I8 compress(I8 x, int mask) {
   int from[8], to[8];

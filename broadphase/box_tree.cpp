@@ -100,11 +100,11 @@ void BoxTree::lay_out(bool motion) {
 void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap& map,
                   const Supports& vertices) {
   if (count_ == 0) return;
-  const bool motion = input.test == BoxTest::motion, own = own_supports(input, kind_);
+  const bool motion = input.test != BoxTest::swept, own = own_supports(input, kind_);
   const BvhKernel& kernel = bvh_kernel(input.kernel);
   const Supports mine = own ? make_supports(input, inflation, map, kind_, ids_.data(), count_) : Supports{};
   const Supports& supports = own ? mine : vertices;
-  rounded_axes_ = supports.rounded_axes;
+  rounded_axes_ = supports.rounded_axes, linear_ = supports.linear;
   lay_out(motion);
   std::vector<int> slots(own ? ids_.size() : 0);
   for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = int(std::min(slot, count_));

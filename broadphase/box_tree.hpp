@@ -33,6 +33,7 @@ class BoxTree {
   std::size_t units() const { return (blocks() + kBlock - 1) / kBlock; }  // of traversal: blocks at level 1
   const TreeView& view() const { return view_; }
   int rounded_axes() const { return rounded_axes_; }
+  bool linear() const { return linear_; }  // see Supports
 
  private:
   std::size_t blocks() const { return ids_.size() / kBlock; }
@@ -42,6 +43,7 @@ class BoxTree {
   Primitive kind_;
   std::size_t count_;
   int rounded_axes_ = 0;
+  bool linear_ = false;
   AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_: ranks
   std::vector<int> names_, bodies_, keys_;  // names_: vertices_ as ids, empty where ranks will do
   AlignedArray<float> boxes_;

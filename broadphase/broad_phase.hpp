@@ -7,15 +7,10 @@
 #include "base/mesh_data.hpp"
 #include "base/motion.hpp"
 #include "base/pair_sink.hpp"
+#include "broadphase/box_test.hpp"
 #include "onset/options.hpp"
 
 namespace onset {
-
-// What a candidate is. swept: the boxes of the motion, exact in double, each widened outward, overlap (closed
-// boxes). motion: in addition no axis separates the boxes on the same side at both ends of the step, since
-// then linear motion keeps them apart throughout; a subset of swept up to outward rounding, and what the
-// pipeline uses.
-enum class BoxTest { swept, motion };
 
 struct BroadPhaseInput {
   const MeshData& mesh;

@@ -1,5 +1,6 @@
 #include "broadphase/bvh.hpp"
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -78,7 +79,7 @@ class Bvh final : public BroadPhase {
   struct Decide {
     const BroadPhaseInput& input;
     PairKind kind;
-    static bool touch(const void* context, int a, int b) {
+    static bool meet(const void* context, int a, int b) {
       const Decide& d = *static_cast<const Decide*>(context);
       return boxes_pass(d.input.test, motion_box(d.input, first_primitive(d.kind), a),
                         motion_box(d.input, second_primitive(d.kind), b));
@@ -94,13 +95,15 @@ class Bvh final : public BroadPhase {
     const Decide decide{*input_, kind};
     TraverseArguments arguments{};
     arguments.query = couple.query->view(), arguments.tree = couple.other->view();
-    arguments.motion = input_->test == BoxTest::motion;
+    arguments.test = input_->test;
     arguments.edges = kind == PairKind::edge_edge;
     arguments.self = couple.query == couple.other;
     arguments.keyed = arguments.query.keys != nullptr;
     arguments.rounded_axes = couple.query->rounded_axes() | couple.other->rounded_axes();
+    arguments.relative_error = kFourRoundings;
+    arguments.absolute_error = couple.query->linear() && couple.other->linear() ? kUnderflow : INFINITY;
     arguments.first = first, arguments.last = last;
-    arguments.touches = Decide::touch, arguments.excluded = Decide::excluded, arguments.context = &decide;
+    arguments.meets = Decide::meet, arguments.excluded = Decide::excluded, arguments.context = &decide;
     arguments.consume = sink.consume, arguments.consume_context = sink.context;
     bvh_kernel(input_->kernel).traverse(arguments);
   }
@@ -125,7 +128,7 @@ class Bvh final : public BroadPhase {
     const std::size_t a = std::size_t(first_primitive(kind)), b = std::size_t(second_primitive(kind));
     add(couples, *trees_[a], *trees_[b]);
     if (!fixed_) return;
-    const bool motion = input_->test == BoxTest::motion;
+    const bool motion = input_->test != BoxTest::swept;
     if (!trees_[a]->apart(*fixed_->trees[b], motion)) add(couples, *trees_[a], *fixed_->trees[b]);
     if (a != b && !fixed_->trees[a]->apart(*trees_[b], motion)) add(couples, *fixed_->trees[a], *trees_[b]);
   }
@@ -134,6 +137,7 @@ class Bvh final : public BroadPhase {
     couples.push_back({&query, &other, (couples.empty() ? 0 : couples.back().end) + query.units()});
   }
 
+  static constexpr float kFourRoundings = 0x1p-22f * (1 + 0x1p-10f), kUnderflow = 0x1p-100f;
   static constexpr double kMostRoughened = 1.25;
 
   VertexOrder order_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "base/pair_sink.hpp"
+#include "broadphase/box_test.hpp"
 
 namespace onset {
 
@@ -47,14 +48,16 @@ struct FitArguments {
 
 struct TraverseArguments {
   TreeView query, tree;
-  bool motion;
+  BoxTest test;
   bool edges;  // edges against edges, smaller id first; else vertices against faces
   bool self;   // one tree of edges: each unordered pair once
   bool keyed;  // both trees have bodies and keys, which are tested
   int rounded_axes;         // bit i: equal floats on axis i need not be equal doubles
   std::size_t first, last;  // blocks at level 1 of `query`: 64 primitives each
-  // Decides pairs that only touch in float.
-  bool (*touches)(const void* context, int a, int b);
+  // Of a support, four times: a share of it, and what does not depend on it, infinite where the map is not linear.
+  float relative_error, absolute_error;
+  // Decides pairs that float cannot.
+  bool (*meets)(const void* context, int a, int b);
   // Decides pairs both of whose keys have kExcludedFlag.
   bool (*excluded)(const void* context, int a, int b);
   const void* context;  // of both

@@ -1,7 +1,7 @@
 // The traversal of two trees: part of the kernel text (bvh_kernel.inl).
 #pragma once
 
-#include "broadphase/bvh_overlap.inl"
+#include "broadphase/bvh_passing.inl"
 
 namespace onset {
 namespace ONSET_KERNEL {
@@ -24,7 +24,7 @@ struct Pairs {
 // Two trees descended side by side. Every step is a loop over a list that writes the next list without
 // branches, eight entries at a time and as many of them counted as the test says; a list that is full is
 // emptied downward first, so memory is constant and the work depth first.
-template <bool kMotion, bool kEdges, bool kSelf, bool kKeyed>
+template <BoxTest kTest, bool kEdges, bool kSelf, bool kKeyed>
 class Traversal {
  public:
   explicit Traversal(const TraverseArguments& arguments) : t_(arguments) {}
@@ -37,10 +37,12 @@ class Traversal {
       if (start.full()) empty_blocks(top);
     }
     for (int level = top; level >= 0; --level) empty_blocks(level);
+    settle_doubtful();
     flush();
   }
 
  private:
+  static constexpr bool kMotion = kTest != BoxTest::swept, kPassing = kTest == BoxTest::passing;
   static constexpr int kRows = kRowsOf[kMotion];
   static constexpr int kBoxStride = kBoxStrideOf[kMotion];
   static constexpr int kOwn = kEdges ? 2 : 1, kOther = kEdges ? 2 : 3;  // vertices of a primitive
@@ -71,6 +73,20 @@ class Traversal {
     return tree.bodies[level + 1][block];
   }
 
+  // Lanes of a block of nodes that may meet a box.
+  int meeting(const float* box, int stride, const float* block) const {
+    if (!kPassing) return mask_not_negative(overlap<kMotion>(box, stride, block));
+    const Apartness sides = apartness(box, stride, block);
+    const int mask = mask_not_negative(sides.at_both);
+    if ((mask & mask_negative(sides.at_start & sides.at_end)) == 0) return mask;
+    const auto direction = [&](int k) {
+      const int across = opposite(k);
+      return Direction{broadcast(box + across * stride), broadcast(box + (6 + across) * stride),
+                       load(block + k * kLanes), load(block + (6 + k) * kLanes)};
+    };
+    return mask & ~passing(direction, t_);
+  }
+
   // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
   void empty_blocks(int level) {
     if (level > 1)
@@ -86,7 +102,7 @@ class Traversal {
     Pairs& to = blocks_[level - 1];
     for (int e = 0; e < from.count; ++e) {
       const int q = from.a[e], n = from.b[e];
-      int mask = mask_not_negative(overlap<kMotion>(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n)));
+      int mask = meeting(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n));
       if (kKeyed) mask &= ~within(body_of(t_.query, 1, unsigned(q)), t_.tree, level, unsigned(n));
       if (kSelf) {  // nothing before q itself
         const int skip = (q >> 3 * (level - 2)) - n * kBlock;
@@ -102,8 +118,7 @@ class Traversal {
     const Pairs& from = blocks_[level];
     for (int e = 0; e < from.count; ++e) {
       const int a = from.a[e], b = from.b[e];
-      int mask =
-          mask_not_negative(overlap<kMotion>(box_of(t_.tree, level, b), 1, block_of(t_.query, level, a)));
+      int mask = meeting(box_of(t_.tree, level, b), 1, block_of(t_.query, level, a));
       if (kKeyed) mask &= ~within(body_of(t_.tree, level, unsigned(b)), t_.query, level, unsigned(a));
       children_[level].add(compress(lane_numbers() + broadcast(a * kBlock), mask), broadcast(b), mask);
       if (children_[level].full()) empty_children(level);
@@ -129,8 +144,7 @@ class Traversal {
     for (int e = 0; e < from.count; ++e) {
       const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
       const float* box = block_of(t_.query, level, c / kBlock) + c % kBlock;
-      int mask =
-          mask_not_negative(overlap<kMotion>(box, kLanes, block_of(t_.tree, level, b))) & unpaired(c, b);
+      int mask = meeting(box, kLanes, block_of(t_.tree, level, b)) & unpaired(c, b);
       if (kKeyed) mask &= ~within(t_.query.bodies[level][c], t_.tree, level, b);
       to.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), mask), mask);
       if (to.full()) empty_blocks(level - 1);
@@ -139,7 +153,6 @@ class Traversal {
 
   void emit() {
     const Leaves query(t_.query), tree(t_.tree);  // copies: what is written cannot change them
-    const bool rounded = t_.rounded_axes != 0;
     const Pairs& from = children_[0];
     const int items = from.count;
     IdPair* out = out_ + count_;
@@ -151,8 +164,16 @@ class Traversal {
                           tree.vertices + std::size_t(b) * (kOther * kBlock));
       if (kKeyed) shared = shared | apart(c, b);
       int mask = mask_neither_negative(depth, shared) & unpaired(c, b);
-      if (rounded && (mask & mask_zero(depth)) != 0) mask = settle(mask, c, b);
       if (kKeyed) mask = without_excluded(mask, c, b);
+      if (const int doubt = mask == 0 ? 0 : mask & in_doubt(box, tree.block(b), depth); doubt != 0) {
+        doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
+        mask &= ~doubt;
+        if (doubtful_.full()) {
+          count_ = std::size_t(out - out_);
+          settle_doubtful();
+          out = out_ + count_;
+        }
+      }
       const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
       if (kEdges)
         store_interleaved(&out->a, min(same, others), max(same, others));
@@ -169,7 +190,7 @@ class Traversal {
   }
 
   // All bits of the lanes that share a vertex; each vertex of `own` is a row of 8 after the one before.
-  static I8 sharing(const int* own, const int* others) {
+  __attribute__((always_inline)) static I8 sharing(const int* own, const int* others) {
     I8 shared = broadcast(own[0]) == load(others);
     for (int j = 0; j < kOwn; ++j)
       for (int k = j == 0; k < kOther; ++k)
@@ -203,15 +224,39 @@ class Traversal {
     return mask;
   }
 
-  // Takes out the lanes that touch in float but not in double.
-  int settle(int mask, unsigned c, unsigned b) const {
-    int open = touching<kMotion>(mask, t_.rounded_axes, block_of(t_.query, 0, c / kBlock) + c % kBlock,
-                                 block_of(t_.tree, 0, b));
-    for (; open != 0; open &= open - 1) {
-      const int lane = lowest_lane(open);
-      if (!t_.touches(t_.context, t_.query.ids[c], t_.tree.ids[b * kBlock + lane])) mask &= ~(1 << lane);
+  // Lanes about which float may err.
+  int in_doubt(const float* box, const float* block, F8 depth) const {
+    if (kPassing) return overlapping_at_no_end(box, kLanes, block);
+    return t_.rounded_axes != 0 ? mask_zero(depth) : 0;
+  }
+
+  // Full packs of what is in doubt: decided in float where that will do, else in double.
+  __attribute__((noinline)) void settle_doubtful() {
+    const Leaves query(t_.query), tree(t_.tree);
+    for (int first = 0; first < doubtful_.count; first += kLanes) {
+      const int *a = doubtful_.a + first, *b = doubtful_.b + first, left = doubtful_.count - first;
+      const int lanes = left < kLanes ? (1 << left) - 1 : 0xff;
+      const float *boxes_a[kLanes], *boxes_b[kLanes];
+      for (int l = 0; l < kLanes; ++l) {
+        const int from = l < left ? l : 0;
+        boxes_a[l] = query.box(unsigned(a[from])), boxes_b[l] = tree.box(unsigned(b[from]));
+      }
+      const auto direction = [&](int k) {
+        const int across = opposite(k);
+        Direction d;
+        d.a0 = collect(boxes_a, across * kLanes), d.b0 = collect(boxes_b, k * kLanes);
+        if (kMotion) d.a1 = collect(boxes_a, (6 + across) * kLanes), d.b1 = collect(boxes_b, (6 + k) * kLanes);
+        return d;
+      };
+      const Closer p = look_closer<kTest>(direction, t_);
+      for (int open = lanes & ~p.apart; open != 0; open &= open - 1) {
+        const int lane = lowest_lane(open), x = query.ids[a[lane]], y = tree.ids[b[lane]];
+        if ((p.unsure >> lane & 1) != 0 && !t_.meets(t_.context, x, y)) continue;
+        out_[count_++] = kEdges && y < x ? IdPair{y, x} : IdPair{x, y};
+        if (count_ > kBatchSize - kLanes) flush();
+      }
     }
-    return mask;
+    doubtful_.count = 0;
   }
 
   void flush() {
@@ -220,27 +265,29 @@ class Traversal {
   }
 
   const TraverseArguments& t_;
-  Pairs blocks_[kMaxLevels], children_[2];
+  Pairs blocks_[kMaxLevels], children_[2], doubtful_;
   std::size_t count_ = 0;
   IdPair out_[kBatchSize];
 };
 
-template <bool kMotion>
+template <BoxTest kTest>
 void traverse_boxes(const TraverseArguments& a) {
   if (a.edges && a.self)
-    a.keyed ? Traversal<kMotion, true, true, true>(a).run() : Traversal<kMotion, true, true, false>(a).run();
+    a.keyed ? Traversal<kTest, true, true, true>(a).run() : Traversal<kTest, true, true, false>(a).run();
   else if (a.edges)
-    a.keyed ? Traversal<kMotion, true, false, true>(a).run()
-            : Traversal<kMotion, true, false, false>(a).run();
+    a.keyed ? Traversal<kTest, true, false, true>(a).run() : Traversal<kTest, true, false, false>(a).run();
   else
-    a.keyed ? Traversal<kMotion, false, false, true>(a).run()
-            : Traversal<kMotion, false, false, false>(a).run();
+    a.keyed ? Traversal<kTest, false, false, true>(a).run() : Traversal<kTest, false, false, false>(a).run();
 }
 
 }  // namespace
 
 void traverse(const TraverseArguments& arguments) {
-  arguments.motion ? traverse_boxes<true>(arguments) : traverse_boxes<false>(arguments);
+  switch (arguments.test) {
+    case BoxTest::swept: return traverse_boxes<BoxTest::swept>(arguments);
+    case BoxTest::motion: return traverse_boxes<BoxTest::motion>(arguments);
+    case BoxTest::passing: return traverse_boxes<BoxTest::passing>(arguments);
+  }
 }
 
 }  // namespace ONSET_KERNEL

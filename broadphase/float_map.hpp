@@ -19,6 +19,8 @@ namespace onset {
 // between quantiles of the coordinates.
 class FloatMap {
  public:
+  static constexpr float kLargest = 0x1p120f;  // what is farther out becomes this
+
   explicit FloatMap(const Motion& motion);
 
   // Whether it tells the vertices of this motion apart, mostly: a map made for another motion is as correct,
@@ -29,15 +31,16 @@ class FloatMap {
     if (!knots_[axis].empty()) return between_knots(x, axis);
     return to_float((x - centre_[axis]) * scale_);
   }
+  // Linear but for the rounding to float, as far as coordinates stay below kLargest.
+  bool is_linear() const { return knots_[0].empty() && knots_[1].empty() && knots_[2].empty(); }
   // Where it holds for all coordinates of a set, the map is one to one on them.
   bool inverts(float y, double x, std::size_t axis) const {
     return double(y) * inverse_ + centre_[axis] == x && knots_[axis].empty();
   }
 
  private:
-  static constexpr double kLargest = 0x1p120;
   static float to_float(double y) {
-    return static_cast<float>(std::min(std::max(y, -kLargest), kLargest)) + 0.0f;
+    return static_cast<float>(std::min(std::max(y, -double(kLargest)), double(kLargest))) + 0.0f;
   }
 
   void fit_linear(const std::array<std::vector<double>, 3>& samples);
