@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "base/radix_sort.hpp"
+#include "broadphase/motion_box.hpp"
 
 namespace onset {
 namespace {
@@ -94,12 +95,22 @@ class Pass {
     void process(const IdPair* pairs, std::size_t count) {
       const std::size_t known = results.size();
       pass.narrow_.process(kind, pairs, count, pass.horizon(), scratch, results);
+      if (pass.bounds_.whole != nullptr) drop_others(*pass.bounds_.whole, known);
       if (results.size() == known) return;
       if (pass.keep_ == Keep::all)
         pass.shrink_to_window(results, known);
       else
         pass.shrink_horizon(*this);
       if (pass.is_bounded() && results.size() >= kHeldByATask) pass.merge(*this);
+    }
+    void drop_others(const BroadPhaseInput& whole, std::size_t first) {
+      const auto is_other = [&](const PairResult& r) {
+        return !boxes_pass(whole.test, motion_box(whole, first_primitive(kind), r.pair.a),
+                           motion_box(whole, second_primitive(kind), r.pair.b));
+      };
+      const auto others = std::remove_if(results.begin() + std::ptrdiff_t(first), results.end(), is_other);
+      scratch.stats.contacts -= results.end() - others;
+      results.erase(others, results.end());
     }
   };
 

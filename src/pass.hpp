@@ -34,11 +34,14 @@ struct PassResult {
   NarrowPhaseStats vertex_face, edge_edge;
 };
 
-// What else bounds a pass that keeps all: pairs later than the earliest toi + `window`, and than the earliest
-// `most`, may be dropped on the way (the caller cuts off the rest).
+// What else bounds a pass. All but `whole` of one that keeps all: pairs later than the earliest toi + `window`, and than
+// the earliest `most`, may be dropped on the way (the caller cuts off the rest).
 struct PassBounds {
   double window = std::numeric_limits<double>::infinity();
   std::size_t most = std::numeric_limits<std::size_t>::max();
+  // Only pairs that are candidates of this as well are found: what is within the tolerance and yet apart may be a
+  // candidate up to a horizon, and not in the whole step.
+  const BroadPhaseInput* whole = nullptr;
 };
 
 // `horizon`: pairs certified apart beyond it may be dropped. `stride`: only every stride-th block of pairs is

@@ -72,8 +72,9 @@ PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep
       {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times, !fixed});
   const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
   const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, stats) : 1;
-  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1,
-                             keep == Keep::all ? bounds(options) : PassBounds{});
+  PassBounds most = keep == Keep::all ? bounds(options) : PassBounds{};
+  if (horizon < 1) most.whole = &*scene.input;
+  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1, most);
   if (keep == Keep::all) sharpen_earliest(narrow, pass.found);
   copy_counts(pass, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;

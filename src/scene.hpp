@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "broadphase/broad_phase.hpp"
 #include "onset/mesh.hpp"
@@ -19,8 +20,10 @@ struct Scene {
   Motion motion;
   std::shared_ptr<BroadPhase>
       broad;  // empty where the motion is not usable (motion.status), or no budget is left
+  std::optional<BroadPhaseInput> input;  // that `broad` was made from
   Clock clock;
 
+  // `test`: swept, or motion: passing then where that is cheaper.
   // Fills the statistics that are known before any pair is. No broad phase is made where the budget is spent.
   // d_hat >= 0: boxes reach as far as pairs of a distance set of d_hat, and at least of the tolerance, can be
   // apart, positions rounded to doubles included.

@@ -57,3 +57,55 @@ TEST_CASE("exact: the step is the earliest contact between adjacent doubles, at 
   }
   CHECK(contacts > 15);
 }
+
+namespace {
+
+// Triangles, three rows each.
+struct Triangles {
+  std::vector<double> x_t0, x_t1;
+  void add(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c,
+           const std::array<double, 3>& by) {
+    for (const auto& p : {a, b, c})
+      for (std::size_t i = 0; i < 3; ++i) x_t0.push_back(p[i]), x_t1.push_back(p[i] + by[i]);
+  }
+  // Of a vertex at 0.3, of two pairs of edges later.
+  void add_contact() {
+    add({5, 5, 0}, {6, 5, 0}, {5, 6, 0}, {0, 0, 0});
+    add({5.2, 5.2, 0.3}, {6.2, 5.2, 0.4}, {5.2, 6.2, 0.5}, {0, 0, -1});
+  }
+  std::ptrdiff_t vertices() const { return std::ptrdiff_t(x_t0.size() / 3); }
+  void expect_same_earliest(std::size_t contacts) const {
+    Eigen::MatrixXi faces(vertices() / 3, 3);
+    for (int f = 0; f < faces.rows(); ++f) faces.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+    const Positions begin(x_t0.data(), vertices()), end(x_t1.data(), vertices());
+    const Mesh mesh(begin, faces);
+    for (const BroadPhaseMethod method :
+         {BroadPhaseMethod::brute, BroadPhaseMethod::bvh, BroadPhaseMethod::hash}) {
+      Options options;
+      options.broad_phase = method;
+      options.certainty = CertaintyLevel::conservative;  // reports what is within the tolerance
+      const ActiveSet set = construct_active_set(mesh, begin, end, options);
+      const StepResult step = compute_collision_free_stepsize(mesh, begin, end, options);
+      REQUIRE(set.size() == contacts);
+      CHECK(step.step == set.toi[std::size_t(set.earliest())]);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("pairs that pass within the tolerance, boxes never together, stay out of active set and step",
+          "[regression]") {
+  for (double gap : {0x1p-41, 0x1p-40, 0x1p-39}) {
+    Triangles scene;
+    scene.add_contact();
+    for (int i = 0; i < 30;
+         ++i) {  // posts that fly by one another, corner to corner, and make the usual motion long
+      const double x = 10 * i;
+      scene.add({x, 0, 20}, {x, 0, 20.5}, {x, 0, 20.25}, {0, 0, 0});
+      scene.add({x - 2, 2 + gap, 20.1}, {x - 2, 2 + gap, 20.6}, {x - 2, 2 + gap, 20.3}, {16, -16, 0});
+    }
+    CAPTURE(gap);
+    scene.expect_same_earliest(3);
+  }
+}
