@@ -72,16 +72,25 @@ int expect_definition(const BroadPhaseInput& input, double slack) {
     const IdPairs found = candidates(*brute, kind);
     const int first = kind == PairKind::edge_edge ? int(input.mesh.edges.size()) : input.mesh.num_vertices;
     const int second = int(kind == PairKind::edge_edge ? input.mesh.edges.size() : input.mesh.faces.size());
+    const auto boxes = [&](bool is_second, int count) {
+      std::vector<std::pair<std::vector<int>, ExactBox>> all;
+      for (int id = 0; id < count; ++id) {
+        const auto vertices = vertices_of(input.mesh, kind, is_second, id);
+        all.emplace_back(vertices, exact_box(input, vertices));
+      }
+      return all;
+    };
+    const auto firsts = boxes(false, first), seconds = boxes(true, second);
     for (int a = 0; a < first; ++a)
       for (int b = kind == PairKind::edge_edge ? a + 1 : 0; b < second; ++b) {
-        const auto va = vertices_of(input.mesh, kind, false, a), vb = vertices_of(input.mesh, kind, true, b);
+        const auto &va = firsts[std::size_t(a)].first, &vb = seconds[std::size_t(b)].first;
         const bool shared = std::find_first_of(va.begin(), va.end(), vb.begin(), vb.end()) != va.end();
         const bool is_candidate = std::binary_search(found.begin(), found.end(), std::pair(a, b));
         if (shared) {
           if (is_candidate) FAIL("a pair that shares a vertex: " << a << " " << b);
           continue;
         }
-        const ExactBox box_a = exact_box(input, va), box_b = exact_box(input, vb);
+        const ExactBox &box_a = firsts[std::size_t(a)].second, &box_b = seconds[std::size_t(b)].second;
         const bool pass = passes(input.test, box_a, box_b, 0, 0);
         if (pass && !is_candidate) FAIL("missed: kind " << int(kind) << " pair " << a << " " << b);
         if (is_candidate && !passes(input.test, box_a, box_b, slack, Rational(0x1p-44)))
