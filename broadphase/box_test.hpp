@@ -10,11 +10,12 @@ struct Motion;
 // boxes). motion: in addition no axis separates the boxes on the same side at both ends of the step, since
 // then linear motion keeps them apart throughout; a subset of swept up to outward rounding. passing: in
 // addition the boxes, each moving linearly from its place at the start to that at the end, are together at
-// some time, up to a rounding error of it; a subset of motion, and worth its cost where things move by more
-// than their size.
+// some time, give or take 2^-45 of it; a subset of motion, and worth its cost where things move by more than
+// their size.
 enum class BoxTest { swept, motion, passing };
 
-// Motion or passing: which of them makes a step cheaper. Follows from the motion alone.
+// Motion or passing: which of them makes a step cheaper. Follows from a sample of the moving edges, whatever
+// was asked of the mesh before.
 BoxTest cheaper_box_test(const MeshData& mesh, const Motion& motion);
 
 }  // namespace onset

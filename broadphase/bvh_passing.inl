@@ -1,13 +1,14 @@
 // Boxes that pass one another: part of the kernel text (bvh_kernel.inl).
 //
 // Boxes that are apart at both ends, on different axes, may be together in between, or not: boxes_pass in
-// motion_box.hpp decides in double, from when the last axis lets them meet and when the first parts them. Here it
-// is decided in float where that leaves no doubt. A support y of a linear FloatMap is u |Y| from the Y it stands
-// for, u = 2^-24 (1 + 2^-20), and |Yb| <= |Ya| + |S| for a sum S = Ya + Yb: s = fl(ya + yb) is within
-// 2u (|Ya| + |S|) of it. With e >= 4u |Ya|, S <= (s + e)(1 + 2u) where s + e > 0, S <= (s + e)(1 - 2u) else: a root
-// of s + e is that of an upper bound of S up to a factor within 1 +- 6u, and errs by 5u more as computed, 16u =
-// kRootSlack in all with room. s - e is a lower bound likewise. What is apart here is so in double, whose slack is
-// less; a node's supports are at least those of what it holds, so what it drops would be dropped pair by pair.
+// motion_box.hpp decides in double, from when the last axis lets them meet and when the first parts them.
+// Here it is decided in float where that leaves no doubt. A support y of a linear FloatMap is within u |Y| of
+// the Y it stands for, u = 2^-24 (1 + 2^-20), and |Yb| <= |Ya| + |S| for a sum S = Ya + Yb: s = fl(ya + yb) is
+// within 2u (|Ya| + |S|) of it. With e >= 4u |Ya|, S <= (s + e)(1 + 2u) where s + e > 0, S <= (s + e)(1 - 2u)
+// else: a root of s + e is that of an upper bound of S up to a factor within 1 +- 6u, and errs by 5u more as
+// computed; kRootSlack is 16u. s - e is a lower bound likewise. What is apart here is so in double, whose slack
+// is less; a node's supports are at least those of what it holds, so what it drops would be dropped pair by
+// pair.
 #pragma once
 
 #include "broadphase/bvh_overlap.inl"
@@ -42,7 +43,8 @@ inline int certainly_apart(const Together& most) {
                       most.end * broadcast(1 + kRootSlack) + broadcast(kLeast));
 }
 inline int certainly_together(const Together& least) {
-  return mask_greater(least.end * broadcast(1 - kRootSlack), least.begin * broadcast(1 + kRootSlack));
+  return mask_greater(least.end * broadcast(1 - kRootSlack),
+                      least.begin * broadcast(1 + kRootSlack) + broadcast(kLeast));
 }
 
 // Of boxes that are not apart on one axis at both ends: the lanes that are certainly apart throughout.

@@ -224,13 +224,13 @@ class Traversal {
     return mask;
   }
 
-  // Lanes about which float may err.
+  // Lanes for which signs in float do not tell: of boxes that pass, all that overlap at neither end.
   int in_doubt(const float* box, const float* block, F8 depth) const {
     if (kPassing) return overlapping_at_no_end(box, kLanes, block);
     return t_.rounded_axes != 0 ? mask_zero(depth) : 0;
   }
 
-  // Full packs of what is in doubt: decided in float where that will do, else in double.
+  // What is in doubt, eight pairs at a time: decided in float where that will do, else in double.
   __attribute__((noinline)) void settle_doubtful() {
     const Leaves query(t_.query), tree(t_.tree);
     for (int first = 0; first < doubtful_.count; first += kLanes) {

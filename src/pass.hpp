@@ -34,8 +34,8 @@ struct PassResult {
   NarrowPhaseStats vertex_face, edge_edge;
 };
 
-// What else bounds a pass. All but `whole` of one that keeps all: pairs later than the earliest toi + `window`, and than
-// the earliest `most`, may be dropped on the way (the caller cuts off the rest).
+// What else bounds a pass. `window` and `most` are for passes that keep all: pairs later than the earliest toi +
+// `window`, and than the earliest `most`, may be dropped on the way (the caller cuts off the rest).
 struct PassBounds {
   double window = std::numeric_limits<double>::infinity();
   std::size_t most = std::numeric_limits<std::size_t>::max();

@@ -22,7 +22,7 @@ BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, co
 
 namespace {
 
-// Only trees and grids of the two tests are worth keeping, each in a slot of its own.
+// Only trees and grids are worth keeping: swept and motion boxes in slots of their own.
 bool is_kept(BroadPhaseMethod method) { return method != BroadPhaseMethod::brute; }
 Spares::Slot slot_of(BroadPhaseMethod method, BoxTest test) {
   return 2 * Spares::Slot(method == BroadPhaseMethod::hash) + Spares::Slot(test == BoxTest::swept);
@@ -65,8 +65,8 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
   if (test == BoxTest::motion) test = cheaper_box_test(data, motion);
   describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options, stats);
   // With a separation, widened boxes round, and by how much depends on where the scene lies. Wider by the
-  // tolerance, boxes that just miss belong to pairs farther apart than any that is reported: results do not
-  // depend on that rounding.
+  // tolerance, boxes that just miss belong to pairs farther apart than any that is reported, unless it spends
+  // its checks: results do not depend on that rounding.
   const bool widened = options.min_separation > 0 || !data.thickness.empty();
   const double margin = test != BoxTest::swept && widened ? stats.tolerance : 0;
   input.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));

@@ -75,7 +75,7 @@ TEST_CASE("every method agrees with brute force on boxes that pass corner to cor
       const double before = scenes::uniform(random, 0.1, 0.5), after = before * (1 - t) / t;
       const double off = scenes::coin(random) ? 0 : scenes::uniform(random, -1, 1) * 0x1p-22;
       add({x, x, x}, 0.1, {0, 0, 0});
-      add({x + 0.1 + before, x + 0.1 - before, x + off}, 0.1, {-before - after, before + after, 0});
+      add({x + 0.1 + before, x + 0.1 - before + off, x}, 0.1, {-before - after, before + after, 0});
     }
     const Motion motion = soup.motion();
     BroadPhaseInput input{soup.mesh, motion};
@@ -91,7 +91,7 @@ TEST_CASE("every method agrees with brute force on boxes that pass corner to cor
 TEST_CASE("every method agrees with brute force when widened by an inflation", "[property]") {
   for (const Soup& soup : hard_soups()) {
     const Motion motion = soup.motion();
-    for (double relative : {1e-9, 0.01, 0.3}) {
+    for (double relative : {1e-9, 0.01, 0.1}) {
       BroadPhaseInput input{soup.mesh, motion};
       input.inflation = size_of(motion) * relative;
       expect_agreement_of_all_tests(soup.name + ", inflated", input);

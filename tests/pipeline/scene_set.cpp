@@ -31,7 +31,8 @@ std::vector<NamedScene> some_scenes() {
           {"sphere short of cube", scenes::sphere_onto_cube(7, 12, 0.25, 0.125)},
           {"sphere onto sphere", scenes::sphere_onto_sphere(8, 11, 0.01, 0.1)},
           {"crumpling cloth", crumpling_cloth(random)},
-          {"cube onto cube", cube_onto_cube()}};
+          {"cube onto cube", cube_onto_cube()},
+          {"fast soup", scenes::triangle_soup(150, 0.05, 0.6, random)}};
 }
 
 Scene on_grid(Scene scene) {

@@ -87,7 +87,12 @@ struct Triangles {
       const ActiveSet set = construct_active_set(mesh, begin, end, options);
       const StepResult step = compute_collision_free_stepsize(mesh, begin, end, options);
       REQUIRE(set.size() == contacts);
-      CHECK(step.step == set.toi[std::size_t(set.earliest())]);
+      const double earliest = set.toi[std::size_t(set.earliest())];
+      CHECK(step.step == earliest);
+      options.window = 0.01;
+      const ActiveSet first = construct_active_set(mesh, begin, end, options);
+      REQUIRE(first.size() == 1);
+      CHECK(first.toi[0] == earliest);
     }
   }
 };
