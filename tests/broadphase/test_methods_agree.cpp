@@ -89,9 +89,11 @@ TEST_CASE("every method agrees with brute force on boxes that pass corner to cor
 }
 
 TEST_CASE("every method agrees with brute force when widened by an inflation", "[property]") {
+  int turn = 0;
   for (const Soup& soup : hard_soups()) {
     const Motion motion = soup.motion();
-    for (double relative : {1e-9, 0.01, 0.1}) {
+    for (double relative :
+         {1e-9, ++turn % 4 == 0 ? 0.3 : 0.01}) {  // the largest is for a few: it pairs nearly all
       BroadPhaseInput input{soup.mesh, motion};
       input.inflation = size_of(motion) * relative;
       expect_agreement_of_all_tests(soup.name + ", inflated", input);
