@@ -49,6 +49,9 @@ int write_point(const FloatMap& map, const double* x, float* out) {
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
                        const int* ids, std::size_t count) {
   const bool swept = input.test == BoxTest::swept;
+  // Boxes of static parts are kept for calls with another test.
+  const bool fixed = input.mesh.filter && input.mesh.filter->has_fixed();
+  const bool asks = fixed || input.test == BoxTest::passing;
   const bool points =
       kind == Primitive::vertex && inflation == 0 && input.mesh.thickness.empty() && input.horizon == 1;
   const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
@@ -67,7 +70,7 @@ Supports make_supports(const BroadPhaseInput& input, double inflation, const Flo
         mine |= write_point(map, input.motion.t0(ids[i]), record);
       else
         mine |= write_record(map, motion_box(input, kind, ids[i], inflation), record);
-      for (int k = 0; k < 2 * kBlock; ++k) largest[k] = std::max(largest[k], record[k]);
+      for (int k = 0; asks && k < 2 * kBlock; ++k) largest[k] = std::max(largest[k], record[k]);
       float* out = s.records.data() + i * stride;
       for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
       if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);
@@ -76,7 +79,7 @@ Supports make_supports(const BroadPhaseInput& input, double inflation, const Flo
     if (*std::max_element(largest, largest + 2 * kBlock) >= FloatMap::kLargest) far_out = true;
   });
   s.rounded_axes = rounded;
-  s.linear = map.is_linear() && !far_out;
+  s.linear = asks && map.is_linear() && !far_out;
   return s;
 }
 
