@@ -13,28 +13,37 @@ namespace {
 constexpr std::size_t kBlocksATask = 16;
 
 // Ids are not negative: one number orders a kind's pairs as (a, b) does.
-std::uint64_t order(const FoundPair& f) {
-  return std::uint64_t(f.kind == PairKind::edge_edge) << 63 | std::uint64_t(f.result.pair.a) << 32 |
-         std::uint64_t(f.result.pair.b);
+std::uint64_t order(PairKind kind, IdPair pair) {
+  return std::uint64_t(kind == PairKind::edge_edge) << 63 | std::uint64_t(pair.a) << 32 |
+         std::uint64_t(pair.b);
 }
+PairKind kind_of(std::uint64_t order) { return order >> 63 ? PairKind::edge_edge : PairKind::vertex_face; }
 
 constexpr std::size_t kFewPairs = 2000;  // so few are sorted faster by comparing
 
-// Sixteen bytes a pair are moved about instead of sixty-four.
-std::vector<FoundPair> sorted(const std::vector<FoundPair>& found) {
+// What one task found.
+struct Part {
+  PairKind kind;
+  std::vector<PairResult> results;
+};
+
+// Sixteen bytes a pair are moved about, and each result once.
+std::vector<FoundPair> sorted(const std::vector<Part>& parts, std::size_t count) {
   struct Place {
     std::uint64_t order;
-    std::size_t at;
+    const PairResult* result;
   };
-  std::vector<Place> places(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) places[i] = {order(found[i]), i};
-  if (found.size() < kFewPairs)
+  std::vector<Place> places;
+  places.reserve(count);
+  for (const Part& part : parts)
+    for (const PairResult& result : part.results) places.push_back({order(part.kind, result.pair), &result});
+  if (count < kFewPairs)
     std::sort(places.begin(), places.end(), [](const Place& x, const Place& y) { return x.order < y.order; });
   else
     radix_sort(places, [](const Place& p) { return p.order; });
   std::vector<FoundPair> r;
-  r.reserve(found.size());
-  for (const Place& p : places) r.push_back(found[p.at]);
+  r.reserve(count);
+  for (const Place& p : places) r.push_back({kind_of(p.order), *p.result});
   return r;
 }
 
@@ -76,7 +85,7 @@ class Pass {
     }
   }
 
-  std::vector<FoundPair> take() { return keep_ == Keep::all ? sorted(found_) : std::move(found_); }
+  std::vector<FoundPair> take() { return keep_ == Keep::all ? sorted(parts_, held_) : std::move(first_); }
 
  private:
   struct Task {
@@ -163,22 +172,35 @@ class Pass {
   void merge(Task& task) {
     const std::lock_guard<std::mutex> lock(mutex_);
     task.stats.add(task.scratch.stats);
-    for (const PairResult& r : task.results) {
-      const FoundPair f{task.kind, r};
-      if (keep_ == Keep::all || found_.empty())
-        found_.push_back(f);
-      else if (limits_before(f, found_[0]))
-        found_[0] = f;
-    }
     task.scratch.stats = {};
+    if (keep_ == Keep::all)
+      merge_all(task);
+    else if (!task.results.empty())
+      merge_first({task.kind, task.results[0]});
     task.results.clear();
-    if (is_bounded() && found_.size() > bounds_.most + bounds_.most / 2 + kHeldByATask) drop_latest();
+  }
+  void merge_first(const FoundPair& f) {
+    if (first_.empty() || limits_before(f, first_[0])) first_.assign(1, f);
+  }
+  void merge_all(Task& task) {
+    if (task.results.empty()) return;
+    held_ += task.results.size();
+    parts_.push_back({task.kind, std::move(task.results)});
+    if (is_bounded() && held_ > bounds_.most + bounds_.most / 2 + kHeldByATask) drop_latest();
   }
   void drop_latest() {
-    const auto last = found_.begin() + std::ptrdiff_t(bounds_.most) - 1;
-    std::nth_element(found_.begin(), last, found_.end(), earlier);
+    std::vector<FoundPair> found;
+    found.reserve(held_);
+    for (Part& part : parts_) {
+      for (const PairResult& r : part.results) found.push_back({part.kind, r});
+      part.results = {};
+    }
+    const auto last = found.begin() + std::ptrdiff_t(bounds_.most) - 1;
+    std::nth_element(found.begin(), last, found.end(), earlier);
     shrink_to(last->result.toi);
-    found_.resize(bounds_.most);
+    found.resize(held_ = bounds_.most);
+    parts_ = {{PairKind::vertex_face, {}}, {PairKind::edge_edge, {}}};
+    for (const FoundPair& f : found) parts_[f.kind == PairKind::edge_edge].results.push_back(f.result);
   }
 
   const PairSource& pairs_;
@@ -190,12 +212,16 @@ class Pass {
   std::atomic<double> horizon_;
   double wave_horizon_;
   std::mutex mutex_;
-  std::vector<FoundPair> found_;
+  std::vector<FoundPair> first_;  // unless all are kept: the first in the order of limits_before
+  std::vector<Part> parts_;       // where all are kept
+  std::size_t held_ = 0;          // in parts_
 };
 
 }  // namespace
 
-bool before(const FoundPair& x, const FoundPair& y) { return order(x) < order(y); }
+bool before(const FoundPair& x, const FoundPair& y) {
+  return order(x.kind, x.result.pair) < order(y.kind, y.result.pair);
+}
 
 bool limits_before(const FoundPair& x, const FoundPair& y) {
   return x.result.step_limit != y.result.step_limit ? x.result.step_limit < y.result.step_limit

@@ -49,8 +49,8 @@ void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) 
     if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) narrow.sharpen(f.kind, f.result);
 }
 
-// 256 bytes a contact: a row of the set is 124; finding it takes 64 in an array that grows to twice that, and sorting
-// it 16 and 64 more.
+// 256 bytes a contact: a row of the set is 124; finding it takes 64 in arrays that grow to twice that, and sorting
+// it 32 and 64 more.
 constexpr std::int64_t kBytesAContact = 256;
 
 std::size_t most_contacts(const Options& options) {
