@@ -20,7 +20,20 @@ inline void cut_short(V (&c)[2][K][3], V horizon) {
     for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], horizon);
 }
 
-inline F8 float_separation(const KernelPairs& pairs, const int* rows) {
+// Which pairs are in the lanes: eight in a row, whose addresses need less arithmetic, or a list of eight.
+struct InOrder {
+  int first;
+  int operator[](int lane) const { return first + lane; }
+  InOrder half(int of) const { return {first + 4 * of}; }
+};
+struct Listed {
+  const int* rows;
+  int operator[](int lane) const { return rows[lane]; }
+  Listed half(int of) const { return {rows + 4 * of}; }
+};
+
+template <class Rows>
+inline F8 float_separation(const KernelPairs& pairs, Rows rows) {
   const double beyond = pairs.horizon < 1 ? pairs.reach : 0;
   double of_pair[8];
   for (int l = 0; l < 8; ++l) of_pair[l] = (pairs.separation[rows[l]] + pairs.rounding + beyond) * pairs.scale;
@@ -37,14 +50,14 @@ inline F8 rho_of(const F8 (&c)[2][K][3]) {
   return sqrt(dot(R, R));
 }
 
-template <int K>
-inline void float_corners(const KernelPairs& pairs, const int* rows, FloatPairs<K>& out) {
+template <int K, class Rows>
+inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& out) {
   using V = F8;
   D4 lanes[2][2][K][3];
   const D4 scale = D4::all(pairs.scale);
   for (int half = 0; half < 2; ++half) {
     Points<D4> p;
-    gather(pairs, rows + 4 * half, p);
+    gather(pairs, rows.half(half), p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
     if (pairs.horizon < 1) cut_short(lanes[half], D4::all(pairs.horizon));
   }
@@ -59,8 +72,8 @@ inline void float_corners(const KernelPairs& pairs, const int* rows, FloatPairs<
 // float above. A corner (1 - t) a + t b cut short at the horizon t errs, with |t b| <= 2 rho for the rho of what is left, by 3u
 // more for t's own rounding to float, 5u for its terms and their sum, and u for b: 16u with the 7u above.
 // Whatever is added up then, the vertices' errors weigh no more than |w|.
-template <int K>
-inline void rounded_corners(const KernelPairs& pairs, const int* rows, FloatPairs<K>& out) {
+template <int K, class Rows>
+inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& out) {
   using V = F8;
   V p[2][4][3], of_vertex[4];
   for (int i = 0; i < 4; ++i) {
@@ -180,8 +193,8 @@ inline F8::Mask never_together(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m)
 }
 
 // The mask of pairs that are apart throughout. refined: in two halves, each with its own turning direction.
-template <int K>
-inline int cull_eight(const KernelPairs& pairs, const int* rows, bool refined) {
+template <int K, class Rows>
+inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
   using V = F8;
   FloatPairs<K> s;
   if (!refined && pairs.rounded != nullptr) rounded_corners(pairs, rows, s);
@@ -205,26 +218,39 @@ inline int cull_eight(const KernelPairs& pairs, const int* rows, bool refined) {
               never_together(s.c[0], s.c[1], d + s.error));
 }
 
-// Writes those of rows[0..count) that are not apart to kept (which may be rows itself); returns their number.
-template <int K>
-inline int cull_rows(const KernelPairs& pairs, const int* rows, int count, bool refined, int* kept) {
+// Writes the first `valid` of eight rows but those that are apart; returns their number.
+template <class Rows>
+inline int keep(int apart, Rows rows, int valid, int* kept) {
   int survivors = 0;
-  for (int first = 0; first < count; first += 8) {
-    int here[8];
-    const int valid = count - first < 8 ? count - first : 8;
-    for (int l = 0; l < 8; ++l) here[l] = rows[first + (l < valid ? l : valid - 1)];
-    const int apart = cull_eight<K>(pairs, here, refined);
-    for (int l = 0; l < valid; ++l) {
-      kept[survivors] = here[l];
-      survivors += !(apart >> l & 1);
-    }
+  for (int l = 0; l < valid; ++l) {
+    kept[survivors] = rows[l];
+    survivors += !(apart >> l & 1);
   }
   return survivors;
 }
 
+// The rest, fewer than eight: the last row is repeated.
+template <int K, class Rows>
+inline int cull_rest(const KernelPairs& pairs, Rows rows, int valid, bool refined, int* kept) {
+  int here[8];
+  for (int l = 0; l < 8; ++l) here[l] = rows[l < valid ? l : valid - 1];
+  return keep(cull_eight<K>(pairs, Listed{here}, refined), Listed{here}, valid, kept);
+}
+
 template <int K>
 inline int cull_all(const KernelPairs& pairs, int* survivors) {
-  for (int i = 0; i < pairs.count; ++i) survivors[i] = i;
-  const int coarse = cull_rows<K>(pairs, survivors, pairs.count, false, survivors);
-  return cull_rows<K>(pairs, survivors, coarse, true, survivors);
+  int coarse = 0, first = 0;
+  for (; first + 8 <= pairs.count; first += 8) {
+    const InOrder rows{first};
+    coarse += keep(cull_eight<K>(pairs, rows, false), rows, 8, survivors + coarse);
+  }
+  if (first < pairs.count) coarse += cull_rest<K>(pairs, InOrder{first}, pairs.count - first, false, survivors + coarse);
+
+  int kept = 0;  // written over those already looked at
+  for (first = 0; first + 8 <= coarse; first += 8) {
+    const Listed rows{survivors + first};
+    kept += keep(cull_eight<K>(pairs, rows, true), rows, 8, survivors + kept);
+  }
+  if (first < coarse) kept += cull_rest<K>(pairs, Listed{survivors + first}, coarse - first, true, survivors + kept);
+  return kept;
 }

@@ -7,7 +7,8 @@ struct Points {
 };
 
 // Lane l holds the pair rows[l]. Rows past the end repeat the last one; their results are ignored.
-inline void gather(const KernelPairs& pairs, const int* rows, Points<D4>& out) {
+template <class Rows>
+inline void gather(const KernelPairs& pairs, const Rows& rows, Points<D4>& out) {
   for (int i = 0; i < 4; ++i) {
     const double* v[4];
     for (int l = 0; l < 4; ++l) v[l] = pairs.x + static_cast<long long>(pairs.vertices[rows[l]][i]) * 8;

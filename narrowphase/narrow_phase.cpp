@@ -31,8 +31,8 @@ void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) {
     const auto& f = mesh.faces[std::size_t(p.b)];
     v[0] = p.a, v[1] = f[0], v[2] = f[1], v[3] = f[2];
   } else {
-    const auto &e = mesh.edges[std::size_t(p.a)], &g = mesh.edges[std::size_t(p.b)];
-    v[0] = e[0], v[1] = e[1], v[2] = g[0], v[3] = g[1];
+    std::copy_n(mesh.edges[std::size_t(p.a)].data(), 2, v);
+    std::copy_n(mesh.edges[std::size_t(p.b)].data(), 2, v + 2);
   }
 }
 
