@@ -35,7 +35,8 @@ inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm,
 }
 
 // The same with the direction turning on as it did since the last time: w(s) from w at t to w_b at tb, |w_b| bounded by the
-// choice of tb. phi_k = w(s).c_k(s) is a quadratic with Bernstein coefficients b0, b1, b2, each within 8u max(|w|, |w_b|) rho.
+// choice of tb. phi_k = w(s).c_k(s) is a quadratic with Bernstein coefficients b0, b1, b2, each within 8u max(|w|, |w_b|) rho; the
+// quadratic of the least over all corners is below every phi_k, as no Bernstein polynomial is negative.
 template <class V, int K>
 inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm, const V (&g0)[K], const V (&g1)[K]) {
   V turned[3], wb[3];
@@ -53,13 +54,15 @@ inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm
   const V tau = separation_wanted(s);
   const V m0 = (error + tau * size_a) * up, m2 = (error + tau * size_b) * up;
   const V m1 = V::all(0.5) * (m0 + m2) * up;
-  V L = one<V>();
+  V b0, b1, b2;
   for (int k = 0; k < K; ++k) {
     const V h0 = dot(wb, s.c[0][k]), h1 = dot(wb, s.c[1][k]);
-    const V b0 = lerp(g0[k], g1[k], s.t), b2 = lerp(h0, h1, tb);
-    const V b1 = V::all(0.5) * (lerp(g0[k], g1[k], tb) + lerp(h0, h1, s.t));
-    L = min(first_root(b0 - m0, b1 - m1, b2 - m2), L);
+    const V here[3] = {lerp(g0[k], g1[k], s.t), V::all(0.5) * (lerp(g0[k], g1[k], tb) + lerp(h0, h1, s.t)), lerp(h0, h1, tb)};
+    b0 = k == 0 ? here[0] : min(here[0], b0);
+    b1 = k == 0 ? here[1] : min(here[1], b1);
+    b2 = k == 0 ? here[2] : min(here[2], b2);
   }
+  const V L = first_root(b0 - m0, b1 - m1, b2 - m2);
   const V reached = select(L >= one<V>(), tb, (s.t + L * (tb - s.t)) * V::all(1 - 0x1p-50));
   const auto turning = (s.t_prev >= zero<V>()) & (since > zero<V>()) & (L > zero<V>());
   return certified<V>(turning, select(reached >= one<V>(), V::all(2), reached));
