@@ -66,6 +66,11 @@ void NarrowPhaseStats::note_checks(IdPair pair, std::int64_t n) {
   most_checks = n;
 }
 
+void NarrowPhaseStats::note_outcome(const PairResult& r) {
+  budget += r.outcome == Outcome::budget;
+  achieved_tolerance = std::max(achieved_tolerance, r.tolerance);
+}
+
 NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
     : in_(input),
       kernels_(&kernels_for(input.options.kernel)),
@@ -253,7 +258,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   if (real || seen_within_separation(c, found)) r.certainty = r.limit_certainty = Certainty::certain;
   if (real && from == 0) r.toi_hi = truth.time.hi;
   r.tolerance = std::max(0.0, (found.distance - d) * found.unit);
-  report(r, stats, out);
+  out.push_back(r);
 }
 
 // kept = min(keep gap + rounding, (1 + keep)/2 gap): less than this bound means the second, from which the
@@ -299,17 +304,10 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
     finish({c.kind, c.pair, whole, c.row}, later, parting.t, stats, next);
     r.step_limit = next.empty() ? 1 : next[0].step_limit;
     if (!next.empty()) r.limit_certainty = next[0].certainty;
-    if (!next.empty()) --stats.contacts;
+    if (!next.empty()) stats.note_outcome(next[0]);
   }
   if (parting.t > 0 && truth.answer == Answer::yes && truth.time.lo > 0)
     r.step_limit = std::min(r.step_limit, truth.time.lo);
-  report(r, stats, out);
-}
-
-void NarrowPhase::report(const PairResult& r, NarrowPhaseStats& stats, std::vector<PairResult>& out) {
-  stats.achieved_tolerance = std::max(stats.achieved_tolerance, r.tolerance);
-  ++stats.contacts;
-  stats.budget += r.outcome == Outcome::budget;
   out.push_back(r);
 }
 

@@ -53,6 +53,7 @@ struct NarrowPhaseStats {
   IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
   void note_checks(IdPair pair, std::int64_t checks);  // >= 1
+  void note_outcome(const PairResult& result);         // budget, achieved_tolerance
 };
 
 // What one thread keeps between batches.
@@ -66,8 +67,9 @@ struct NarrowPhaseScratch {
 class NarrowPhase {
  public:
   explicit NarrowPhase(const NarrowPhaseInput& input);
-  // Appends the pairs of the batch that are not free (in the batch's order). Pairs certified apart beyond
-  // `horizon` may be left out; the rest have the same results for any horizon.
+  // Appends the pairs of the batch that are not free (in the batch's order); how many of these are contacts,
+  // and their outcomes, is for the caller to count: it may drop some. Pairs certified apart beyond `horizon`
+  // may be left out; the rest have the same results for any horizon.
   void process(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
                NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const;
   // Appends the pairs of the batch that the culls cannot certify as free.
@@ -106,7 +108,6 @@ class NarrowPhase {
               std::vector<PairResult>& out) const;
   void finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
                       const ExactAnswer& truth, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
-  static void report(const PairResult& r, NarrowPhaseStats& stats, std::vector<PairResult>& out);
 
   NarrowPhaseInput in_;
   const KernelTable* kernels_;

@@ -106,6 +106,8 @@ class Pass {
       pass.narrow_.process(kind, pairs, count, pass.horizon(), scratch, results);
       if (pass.bounds_.whole != nullptr) drop_others(*pass.bounds_.whole, known);
       if (results.size() == known) return;
+      scratch.stats.contacts += std::int64_t(results.size() - known);
+      for (std::size_t i = known; i < results.size(); ++i) scratch.stats.note_outcome(results[i]);
       if (pass.keep_ == Keep::all)
         pass.shrink_to_window(results, known);
       else
@@ -118,7 +120,6 @@ class Pass {
                            motion_box(whole, second_primitive(kind), r.pair.b));
       };
       const auto others = std::remove_if(results.begin() + std::ptrdiff_t(first), results.end(), is_other);
-      scratch.stats.contacts -= results.end() - others;
       results.erase(others, results.end());
     }
   };
