@@ -104,7 +104,7 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
   const BvhKernel& kernel = bvh_kernel(input.kernel);
   const Supports mine = own ? make_supports(input, inflation, map, kind_, ids_.data(), count_) : Supports{};
   const Supports& supports = own ? mine : vertices;
-  rounded_axes_ = supports.rounded_axes, linear_ = supports.linear;
+  rounded_axes_ = supports.rounded_axes;
   lay_out(motion);
   std::vector<int> slots(own ? ids_.size() : 0);
   for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = int(std::min(slot, count_));
@@ -116,19 +116,21 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
     parallel_ranges(std::size_t(view_.blocks[l]), kGrain, [&](std::size_t first, std::size_t last) {
       kernel.fit_level(view_, l, motion, first, last);
     });
+  linear_ = motion && map.is_linear();
+  for (int row = 0; linear_ && row < kRowsOf[1]; ++row) linear_ = reach(row) < FloatMap::kLargest;
+}
+
+float BoxTree::reach(int row) const {
+  const float* lanes = view_.level[view_.levels - 1] + row * kBlock;
+  return *std::max_element(lanes, lanes + kBlock);
 }
 
 // Negative sums of opposite supports: see bvh_kernel.hpp.
 bool BoxTree::apart(const BoxTree& other, bool motion) const {
   if (count_ == 0 || other.count_ == 0) return true;
-  const auto reach = [&](const BoxTree& tree, int row) {
-    const float* lanes = tree.view_.level[tree.view_.levels - 1] + row * kBlock;
-    return *std::max_element(lanes, lanes + kBlock);
-  };
   for (int k = 0; k < 6; ++k) {
     const int opposite = (k + 3) % 6;
-    if (reach(*this, k) + reach(other, opposite) < 0 &&
-        (!motion || reach(*this, 6 + k) + reach(other, 6 + opposite) < 0))
+    if (reach(k) + other.reach(opposite) < 0 && (!motion || reach(6 + k) + other.reach(6 + opposite) < 0))
       return true;
   }
   return false;

@@ -33,10 +33,12 @@ class BoxTree {
   std::size_t units() const { return (blocks() + kBlock - 1) / kBlock; }  // of traversal: blocks at level 1
   const TreeView& view() const { return view_; }
   int rounded_axes() const { return rounded_axes_; }
-  bool linear() const { return linear_; }  // see Supports
+  // Motion boxes only: whether all coordinates went through a linear map, but for the rounding to float.
+  bool linear() const { return linear_; }
 
  private:
   std::size_t blocks() const { return ids_.size() / kBlock; }
+  float reach(int row) const;  // that support of the union of all boxes
   void lay_out(bool motion);
   void make_keys(const MeshData& mesh);
 

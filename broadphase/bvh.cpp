@@ -1,6 +1,5 @@
 #include "broadphase/bvh.hpp"
 
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -81,8 +80,7 @@ class Bvh final : public BroadPhase {
     PairKind kind;
     static bool meet(const void* context, int a, int b) {
       const Decide& d = *static_cast<const Decide*>(context);
-      return boxes_pass(d.input.test, motion_box(d.input, first_primitive(d.kind), a),
-                        motion_box(d.input, second_primitive(d.kind), b));
+      return boxes_pass(d.input, d.kind, {a, b});
     }
     static bool excluded(const void* context, int a, int b) {
       const Decide& d = *static_cast<const Decide*>(context);
@@ -100,8 +98,7 @@ class Bvh final : public BroadPhase {
     arguments.self = couple.query == couple.other;
     arguments.keyed = arguments.query.keys != nullptr;
     arguments.rounded_axes = couple.query->rounded_axes() | couple.other->rounded_axes();
-    arguments.relative_error = kFourRoundings;
-    arguments.absolute_error = couple.query->linear() && couple.other->linear() ? kUnderflow : INFINITY;
+    arguments.linear = couple.query->linear() && couple.other->linear();
     arguments.first = first, arguments.last = last;
     arguments.meets = Decide::meet, arguments.excluded = Decide::excluded, arguments.context = &decide;
     arguments.consume = sink.consume, arguments.consume_context = sink.context;
@@ -137,7 +134,6 @@ class Bvh final : public BroadPhase {
     couples.push_back({&query, &other, (couples.empty() ? 0 : couples.back().end) + query.units()});
   }
 
-  static constexpr float kFourRoundings = 0x1p-22f * (1 + 0x1p-10f), kUnderflow = 0x1p-100f;
   static constexpr double kMostRoughened = 1.25;
 
   VertexOrder order_;

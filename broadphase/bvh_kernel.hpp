@@ -54,8 +54,7 @@ struct TraverseArguments {
   bool keyed;  // both trees have bodies and keys, which are tested
   int rounded_axes;         // bit i: equal floats on axis i need not be equal doubles
   std::size_t first, last;  // blocks at level 1 of `query`: 64 primitives each
-  // Four times the error of a support: relative to it, and absolute, infinite where the map is not linear.
-  float relative_error, absolute_error;
+  bool linear;  // motion boxes: supports are those of a linear map, but for the rounding to float
   // Decides pairs that float cannot.
   bool (*meets)(const void* context, int a, int b);
   // Decides pairs both of whose keys have kExcludedFlag.

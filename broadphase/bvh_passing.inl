@@ -17,7 +17,7 @@ namespace onset {
 namespace ONSET_KERNEL {
 namespace {
 
-constexpr float kRootSlack = 0x1p-20f, kLeast = 0x1p-100f;
+constexpr float kRootSlack = 0x1p-20f, kFourRoundings = 0x1p-22f * (1 + 0x1p-10f), kLeast = 0x1p-100f;
 
 // One of the six directions: supports of two boxes at both ends.
 struct Direction {
@@ -35,8 +35,9 @@ struct Together {
   }
 };
 
-inline F8 error_of(const Direction& d, const TraverseArguments& t) {
-  return broadcast(t.relative_error) * (abs(d.a0) + abs(d.a1)) + broadcast(t.absolute_error);
+// 4u |Ya| at either end, and more than any underflow.
+inline F8 error_of(const Direction& d) {
+  return broadcast(kFourRoundings) * (abs(d.a0) + abs(d.a1)) + broadcast(kLeast);
 }
 inline int certainly_apart(const Together& most) {
   return mask_greater(most.begin * broadcast(1 - kRootSlack),
@@ -47,40 +48,34 @@ inline int certainly_together(const Together& least) {
                       least.begin * broadcast(1 + kRootSlack) + broadcast(kLeast));
 }
 
-// Of boxes that are not apart on one axis at both ends: the lanes that are certainly apart throughout.
-template <class Directions>
-inline int passing(const Directions& directions, const TraverseArguments& t) {
-  Together most;
-  for (int k = 0; k < 6; ++k) {
-    const Direction d = directions(k);
-    const F8 s0 = d.a0 + d.b0, s1 = d.a1 + d.b1, e = error_of(d, t);
-    most.limit(s0 + e, s1 + e, broadcast(1.0f) / (s0 - s1));
-  }
-  return certainly_apart(most);
-}
-
-// The same, and the lanes for which float leaves open whether they are: boxes that touch, on an axis where that may
-// be due to rounding, as well.
+// The lanes whose boxes are certainly apart throughout, of those that are not so on one axis at both ends; and those for
+// which float leaves it open, among them all that may be apart on one axis at both ends: `least` then ends where it begins.
 struct Closer {
   int apart, unsure;
 };
-template <BoxTest kTest, class Directions>
-inline Closer look_closer(const Directions& directions, const TraverseArguments& t) {
+template <class Directions>
+inline Closer look_closer(const Directions& directions) {
   Together most, least;
-  F8 out_at_both = broadcast(0.0f);
-  int touching = 0;
   for (int k = 0; k < 6; ++k) {
     const Direction d = directions(k);
-    const F8 s0 = d.a0 + d.b0, s1 = kTest == BoxTest::swept ? s0 : d.a1 + d.b1;
-    if ((t.rounded_axes >> k % 3 & 1) != 0) touching |= mask_zero(max(s0, s1));
-    if (kTest != BoxTest::passing) continue;
-    const F8 e = error_of(d, t), slope = broadcast(1.0f) / (s0 - s1);
+    const F8 s0 = d.a0 + d.b0, s1 = d.a1 + d.b1, e = error_of(d), slope = broadcast(1.0f) / (s0 - s1);
     most.limit(s0 + e, s1 + e, slope);
     least.limit(s0 - e, s1 - e, slope);
-    out_at_both = min(max(s0 - e, s1 - e), out_at_both);
   }
-  if (kTest != BoxTest::passing) return {0, touching};
-  return {certainly_apart(most), ~(certainly_together(least) & mask_not_negative(out_at_both)) | touching};
+  return {certainly_apart(most), ~certainly_together(least)};
+}
+
+// Where boxes may pass: the lanes that touch on an axis where equal floats need not be equal doubles.
+template <bool kMotion, class Directions>
+inline int touching(const Directions& directions, int rounded_axes) {
+  int lanes = 0;
+  for (int k = 0; k < 6; ++k) {
+    if ((rounded_axes >> k % 3 & 1) == 0) continue;
+    const Direction d = directions(k);
+    const F8 s0 = d.a0 + d.b0;
+    lanes |= mask_zero(kMotion ? max(s0, d.a1 + d.b1) : s0);
+  }
+  return lanes;
 }
 
 }  // namespace

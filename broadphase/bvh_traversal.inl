@@ -73,18 +73,23 @@ class Traversal {
     return tree.bodies[level + 1][block];
   }
 
+  // at_start and at_end only where boxes that pass are looked for.
+  __attribute__((always_inline)) static Reach reach_of(const float* box, int stride, const float* block) {
+    if constexpr (kPassing) return reach(box, stride, block);
+    return {overlap<kMotion>(box, stride, block), F8{}, F8{}};
+  }
+
   // Lanes of a block of nodes that may meet a box.
   int meeting(const float* box, int stride, const float* block) const {
-    if (!kPassing) return mask_not_negative(overlap<kMotion>(box, stride, block));
-    const Apartness sides = apartness(box, stride, block);
-    const int mask = mask_not_negative(sides.at_both);
-    if ((mask & mask_negative(sides.at_start & sides.at_end)) == 0) return mask;
+    const Reach r = reach_of(box, stride, block);
+    const int mask = mask_not_negative(r.at_both);
+    if (!kPassing || !t_.linear || (mask & mask_negative(r.at_start & r.at_end)) == 0) return mask;
     const auto direction = [&](int k) {
       const int across = opposite(k);
       return Direction{broadcast(box + across * stride), broadcast(box + (6 + across) * stride),
                        load(block + k * kLanes), load(block + (6 + k) * kLanes)};
     };
-    return mask & ~passing(direction, t_);
+    return mask & ~look_closer(direction).apart;
   }
 
   // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
@@ -159,13 +164,13 @@ class Traversal {
     for (int e = 0; e < items; ++e) {
       const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
       const float* box = query.box(c);
-      const F8 depth = overlap<kMotion>(box, kLanes, tree.block(b));
+      const Reach r = reach_of(box, kLanes, tree.block(b));
       I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
                           tree.vertices + std::size_t(b) * (kOther * kBlock));
       if (kKeyed) shared = shared | apart(c, b);
-      int mask = mask_neither_negative(depth, shared) & unpaired(c, b);
+      int mask = mask_neither_negative(r.at_both, shared) & unpaired(c, b);
       if (kKeyed) mask = without_excluded(mask, c, b);
-      if (const int doubt = mask == 0 ? 0 : mask & in_doubt(box, tree.block(b), depth); doubt != 0) {
+      if (const int doubt = mask == 0 ? 0 : mask & in_doubt(r); doubt != 0) {
         doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
         mask &= ~doubt;
         if (doubtful_.full()) {
@@ -224,13 +229,14 @@ class Traversal {
     return mask;
   }
 
-  // Lanes for which signs in float do not tell: of boxes that pass, all that overlap at neither end.
-  int in_doubt(const float* box, const float* block, F8 depth) const {
-    if (kPassing) return overlapping_at_no_end(box, kLanes, block);
-    return t_.rounded_axes != 0 ? mask_zero(depth) : 0;
+  // Lanes for which signs in float do not tell: of boxes that pass, all that overlap at neither end, or only touch there.
+  int in_doubt(const Reach& r) const {
+    if (kPassing) return mask_not_positive(r.at_start) & mask_not_positive(r.at_end);
+    return t_.rounded_axes != 0 ? mask_zero(r.at_both) : 0;
   }
 
-  // What is in doubt, eight pairs at a time: decided in float where that will do, else in double.
+  // What is in doubt, eight pairs at a time: decided in float where that will do, else in double. (Rare: kept out of the
+  // loops that it is called from.)
   __attribute__((noinline)) void settle_doubtful() {
     const Leaves query(t_.query), tree(t_.tree);
     for (int first = 0; first < doubtful_.count; first += kLanes) {
@@ -248,7 +254,9 @@ class Traversal {
         if (kMotion) d.a1 = collect(boxes_a, (6 + across) * kLanes), d.b1 = collect(boxes_b, (6 + k) * kLanes);
         return d;
       };
-      const Closer p = look_closer<kTest>(direction, t_);
+      Closer p{0, 0xff};
+      if (!kPassing) p.unsure = touching<kMotion>(direction, t_.rounded_axes);
+      else if (t_.linear) p = look_closer(direction);
       for (int open = lanes & ~p.apart; open != 0; open &= open - 1) {
         const int lane = lowest_lane(open), x = query.ids[a[lane]], y = tree.ids[b[lane]];
         if ((p.unsure >> lane & 1) != 0 && !t_.meets(t_.context, x, y)) continue;

@@ -109,4 +109,9 @@ bool boxes_pass(BoxTest test, const MotionBox& a, const MotionBox& b) {
   return motion_overlap(a, b) && !(test == BoxTest::passing && pass_apart(a, b));
 }
 
+bool boxes_pass(const BroadPhaseInput& input, PairKind kind, IdPair pair) {
+  return boxes_pass(input.test, motion_box(input, first_primitive(kind), pair.a),
+                    motion_box(input, second_primitive(kind), pair.b));
+}
+
 }  // namespace onset

@@ -49,9 +49,6 @@ int write_point(const FloatMap& map, const double* x, float* out) {
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
                        const int* ids, std::size_t count) {
   const bool swept = input.test == BoxTest::swept;
-  // Boxes of static parts are kept for calls with another test.
-  const bool fixed = input.mesh.filter && input.mesh.filter->has_fixed();
-  const bool asks = fixed || input.test == BoxTest::passing;
   const bool points =
       kind == Primitive::vertex && inflation == 0 && input.mesh.thickness.empty() && input.horizon == 1;
   const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
@@ -60,26 +57,22 @@ Supports make_supports(const BroadPhaseInput& input, double inflation, const Flo
   s.records = AlignedArray<float>((s.count + 1) * stride);
   std::fill_n(s.records.data() + s.count * stride, stride, kNowhere);
   std::atomic<int> rounded{0};
-  std::atomic<bool> far_out{false};
   parallel_ranges(s.count, kGrain, [&](std::size_t first, std::size_t last) {
     int mine = 0;
-    float record[2 * kBlock], largest[2 * kBlock] = {};
+    float record[2 * kBlock];
     for (std::size_t i = first; i < last; ++i) {
       if (points && i + kAhead < last) __builtin_prefetch(input.motion.t0(ids[i + kAhead]));
       if (points)
         mine |= write_point(map, input.motion.t0(ids[i]), record);
       else
         mine |= write_record(map, motion_box(input, kind, ids[i], inflation), record);
-      for (int k = 0; asks && k < 2 * kBlock; ++k) largest[k] = std::max(largest[k], record[k]);
       float* out = s.records.data() + i * stride;
       for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
       if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);
     }
     rounded.fetch_or(mine);
-    if (*std::max_element(largest, largest + 2 * kBlock) >= FloatMap::kLargest) far_out = true;
   });
   s.rounded_axes = rounded;
-  s.linear = asks && map.is_linear() && !far_out;
   return s;
 }
 

@@ -14,7 +14,6 @@ struct Supports {
   AlignedArray<float> records;
   std::size_t count = 0;  // without the last
   int rounded_axes = 0;   // bit i: the map is not one to one on axis i
-  bool linear = true;     // it is linear on all of them, but for rounding to float; known of the passing test
 };
 
 // Of the primitives ids[0..count), each widened by `inflation` and its own thickness.

@@ -104,7 +104,7 @@ class Pass {
     void process(const IdPair* pairs, std::size_t count) {
       const std::size_t known = results.size();
       pass.narrow_.process(kind, pairs, count, pass.horizon(), scratch, results);
-      if (pass.bounds_.whole != nullptr) drop_others(*pass.bounds_.whole, known);
+      if (pass.bounds_.whole != nullptr) keep_candidates_of(*pass.bounds_.whole, known);
       if (results.size() == known) return;
       scratch.stats.contacts += std::int64_t(results.size() - known);
       for (std::size_t i = known; i < results.size(); ++i) scratch.stats.note_outcome(results[i]);
@@ -114,13 +114,10 @@ class Pass {
         pass.shrink_horizon(*this);
       if (pass.is_bounded() && results.size() >= kHeldByATask) pass.merge(*this);
     }
-    void drop_others(const BroadPhaseInput& whole, std::size_t first) {
-      const auto is_other = [&](const PairResult& r) {
-        return !boxes_pass(whole.test, motion_box(whole, first_primitive(kind), r.pair.a),
-                           motion_box(whole, second_primitive(kind), r.pair.b));
-      };
-      const auto others = std::remove_if(results.begin() + std::ptrdiff_t(first), results.end(), is_other);
-      results.erase(others, results.end());
+    void keep_candidates_of(const BroadPhaseInput& whole, std::size_t first) {
+      const auto is_other = [&](const PairResult& r) { return !boxes_pass(whole, kind, r.pair); };
+      results.erase(std::remove_if(results.begin() + std::ptrdiff_t(first), results.end(), is_other),
+                    results.end());
     }
   };
 
