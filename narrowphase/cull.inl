@@ -13,23 +13,24 @@ struct FloatPairs {
 };
 
 // Only [0, horizon] matters: the far end moves there. Certified to stay beyond d + reach until then, a pair cannot be reported
-// earlier, so the limiting pair is the same as without a horizon. (The lerp's 3u is far below float's rounding.)
+// earlier, so the limiting pair is the same as without a horizon. (In double the lerp's 3u is far below float's rounding;
+// rounded_corners counts its own.)
 template <class V, int K>
 inline void cut_short(V (&c)[2][K][3], V horizon) {
   for (int k = 0; k < K; ++k)
     for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], horizon);
 }
 
-// Which pairs are in the lanes: eight in a row, whose addresses need less arithmetic, or a list of eight.
+// Which pairs are in the lanes: those in a row, whose addresses need less arithmetic, or a list.
 struct InOrder {
   int first;
   int operator[](int lane) const { return first + lane; }
-  InOrder half(int of) const { return {first + 4 * of}; }
+  InOrder from(int lane) const { return {first + lane}; }
 };
 struct Listed {
   const int* rows;
   int operator[](int lane) const { return rows[lane]; }
-  Listed half(int of) const { return {rows + 4 * of}; }
+  Listed from(int lane) const { return {rows + lane}; }
 };
 
 template <class Rows>
@@ -57,7 +58,7 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
   const D4 scale = D4::all(pairs.scale);
   for (int half = 0; half < 2; ++half) {
     Points<D4> p;
-    gather(pairs, rows.half(half), p);
+    gather(pairs, rows.from(4 * half), p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
     if (pairs.horizon < 1) cut_short(lanes[half], D4::all(pairs.horizon));
   }
@@ -90,7 +91,7 @@ inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& 
   out.d = float_separation(pairs, rows);
   const V of_positions = K == 3 ? of_vertex[0] + max(of_vertex[1], max(of_vertex[2], of_vertex[3]))
                                 : max(of_vertex[0], of_vertex[1]) + max(of_vertex[2], of_vertex[3]);
-  out.error = (V::all((is_cut ? 16 : 10) * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
+  out.error = (V::all((is_cut ? 16 : 7) * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
 
 // Whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: the Bernstein coefficients
@@ -220,37 +221,37 @@ inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
 
 // Writes the first `valid` of eight rows but those that are apart; returns their number.
 template <class Rows>
-inline int keep(int apart, Rows rows, int valid, int* kept) {
+inline int write_survivors(int apart, Rows rows, int valid, int* out) {
   int survivors = 0;
   for (int l = 0; l < valid; ++l) {
-    kept[survivors] = rows[l];
+    out[survivors] = rows[l];
     survivors += !(apart >> l & 1);
   }
   return survivors;
 }
 
-// The rest, fewer than eight: the last row is repeated.
+// Fewer than eight: the last row is repeated.
 template <int K, class Rows>
-inline int cull_rest(const KernelPairs& pairs, Rows rows, int valid, bool refined, int* kept) {
+inline int cull_few(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
   int here[8];
-  for (int l = 0; l < 8; ++l) here[l] = rows[l < valid ? l : valid - 1];
-  return keep(cull_eight<K>(pairs, Listed{here}, refined), Listed{here}, valid, kept);
+  for (int l = 0; l < 8; ++l) here[l] = rows[l < count ? l : count - 1];
+  return write_survivors(cull_eight<K>(pairs, Listed{here}, refined), Listed{here}, count, out);
+}
+
+// `out` may be the list of rows itself: it is written behind what is read.
+template <int K, class Rows>
+inline int cull_rows(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
+  int survivors = 0, first = 0;
+  for (; first + 8 <= count; first += 8) {
+    const Rows here = rows.from(first);
+    survivors += write_survivors(cull_eight<K>(pairs, here, refined), here, 8, out + survivors);
+  }
+  if (first == count) return survivors;
+  return survivors + cull_few<K>(pairs, rows.from(first), count - first, refined, out + survivors);
 }
 
 template <int K>
 inline int cull_all(const KernelPairs& pairs, int* survivors) {
-  int coarse = 0, first = 0;
-  for (; first + 8 <= pairs.count; first += 8) {
-    const InOrder rows{first};
-    coarse += keep(cull_eight<K>(pairs, rows, false), rows, 8, survivors + coarse);
-  }
-  if (first < pairs.count) coarse += cull_rest<K>(pairs, InOrder{first}, pairs.count - first, false, survivors + coarse);
-
-  int kept = 0;  // written over those already looked at
-  for (first = 0; first + 8 <= coarse; first += 8) {
-    const Listed rows{survivors + first};
-    kept += keep(cull_eight<K>(pairs, rows, true), rows, 8, survivors + kept);
-  }
-  if (first < coarse) kept += cull_rest<K>(pairs, Listed{survivors + first}, coarse - first, true, survivors + kept);
-  return kept;
+  const int coarse = cull_rows<K>(pairs, InOrder{0}, pairs.count, false, survivors);
+  return cull_rows<K>(pairs, Listed{survivors}, coarse, true, survivors);
 }

@@ -309,8 +309,8 @@ constexpr ErrorBound<Input, Compute> kBounds[] = {
     {"witness point, 10u R", make_input, witness_ratio, 0.15, 6},
     {"single precision, 7u", make_input, float_ratio, 0.15, 6},
     {"the same cut short", make_cut_input, float_ratio, 0.15, 10},
-    {"rounded positions, 10u and theirs", make_input, rounded_ratio, 0.15, 6},
-    {"rounded positions, 10u", make_input, arithmetic_ratio, 0.15, 6},
+    {"rounded positions, 7u and theirs", make_input, rounded_ratio, 0.15, 6},
+    {"rounded positions, 7u", make_input, arithmetic_ratio, 0.15, 6},
     {"the same cut short, 16u and theirs", make_cut_input, rounded_ratio, 0.1, 10},
     {"the same cut short, 16u", make_cut_input, arithmetic_ratio, 0.1, 10}};
 
