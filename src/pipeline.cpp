@@ -17,6 +17,7 @@ namespace onset {
 namespace {
 
 constexpr std::size_t kSampledBlocks = 64;  // one in so many
+constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cost more than they spare
 
 // Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that
 // horizon, and the whole is passed once with a horizon that shrinks further. A pair reported at t is within d
@@ -34,7 +35,7 @@ double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narr
   const bool exact = narrow.times_are_exact() && first.step_limit < 1;
   const double limit = exact ? std::nextafter(first.step_limit, 1) : first.step_limit;
   const double horizon = keep == Keep::all ? latest_time(first) + options.window : limit;
-  if (horizon > 0.5) return std::min(horizon, 1.0);
+  if (horizon > kShrinksUpTo) return std::min(horizon, 1.0);
   scene.broad->refit(
       broad_phase_input(mesh.data(), scene.motion, options, stats.tolerance, horizon, BoxTest::motion));
   return horizon;
@@ -49,8 +50,8 @@ void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) 
     if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) narrow.sharpen(f.kind, f.result);
 }
 
-// 256 bytes a contact: a row of the set is 124; finding it takes 64 in arrays that grow to twice that, and sorting
-// it 32 and 64 more.
+// 256 bytes a contact: a row of the set is 124; finding it takes 64 in arrays that grow to twice that, and
+// sorting it 32 and 64 more.
 constexpr std::int64_t kBytesAContact = 256;
 
 std::size_t most_contacts(const Options& options) {
@@ -67,14 +68,16 @@ PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep
                Stats& stats) {
   const double begun = scene.clock.seconds();
   const bool exact_times = options.certainty == CertaintyLevel::exact && keep != Keep::all;
-  const bool fixed = mesh.data().filter->has_fixed();  // static vertices cost no pass over them in every call
+  // A pass over all vertices in every call is worth it unless most of them are static.
+  const bool mostly_static =
+      2 * mesh.data().filter->static_ids.size() > std::size_t(mesh.data().num_vertices);
   const NarrowPhase narrow(
-      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times, !fixed});
+      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times, !mostly_static});
   const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
   const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, stats) : 1;
-  PassBounds most = keep == Keep::all ? bounds(options) : PassBounds{};
-  if (horizon < 1) most.whole = &*scene.input;
-  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1, most);
+  PassBounds limits = keep == Keep::all ? bounds(options) : PassBounds{};
+  if (horizon <= kShrinksUpTo) limits.whole = &*scene.whole;
+  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1, limits);
   if (keep == Keep::all) sharpen_earliest(narrow, pass.found);
   copy_counts(pass, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;

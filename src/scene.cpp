@@ -69,15 +69,15 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
   // its checks: results do not depend on that rounding.
   const bool widened = options.min_separation > 0 || !data.thickness.empty();
   const double margin = test != BoxTest::swept && widened ? stats.tolerance : 0;
-  input.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
+  whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
   if (d_hat >= 0) {  // boxes that stay fixed are not widened: the others take all of it
     const double near = std::max(d_hat, stats.tolerance);
     const double reach = euclidean_reach(data, options, near, rounding_of_distances(motion));
     const bool fixed = data.filter && data.filter->has_fixed();
-    input->inflation = std::max(input->inflation, fixed ? reach : 0.5 * reach);
+    whole->inflation = std::max(whole->inflation, fixed ? reach : 0.5 * reach);
   }
   if (budget.spent()) return;
-  broad = take_broad_phase(options, *input, budget);
+  broad = take_broad_phase(options, *whole, budget);
   if (is_kept(options.broad_phase)) spares_ = data.spares;
   slot_ = slot_of(options.broad_phase, test);
   stats.broad_phase = broad->name();

@@ -20,7 +20,8 @@ struct Scene {
   Motion motion;
   std::shared_ptr<BroadPhase>
       broad;  // empty where the motion is not usable (motion.status), or no budget is left
-  std::optional<BroadPhaseInput> input;  // that `broad` was made from
+  // The candidates of the whole step; `broad` may since have shrunk to a horizon.
+  std::optional<BroadPhaseInput> whole;
   Clock clock;
 
   // `test`: swept, or motion: passing then where that is cheaper.
