@@ -11,7 +11,7 @@ struct Motion;
 // then linear motion keeps them apart throughout; a subset of swept up to outward rounding. passing: in
 // addition the boxes, each moving linearly from its place at the start to that at the end, are together at
 // some time, give or take 2^-45 of it; a subset of motion, and worth its cost where things move by more than
-// their size.
+// twice their size.
 enum class BoxTest { swept, motion, passing };
 
 // Motion or passing: which of them makes a step cheaper. Follows from a sample of the moving edges, whatever

@@ -12,7 +12,7 @@ namespace onset {
 // in any order. Pairs that are not listed are not looked at: the list must hold every pair that may touch, as
 // compute_candidates gives for this motion, or for one that contains it, and the same min_separation or more.
 // A pair that comes within the tolerance and never touches may limit this step and not that of the call
-// without a list, whose boxes tell more of such pairs apart.
+// without a list, which does not look at pairs whose boxes are never at one place at one time.
 //
 // keep in [0, 1): every pair keeps this share of its gap at x_t0, as in LineSearch, so that the next step is
 // > 0.

@@ -24,7 +24,7 @@ enum class Kernel { automatic, scalar, avx2 };
 enum class CertaintyLevel { conservative, certify, exact };
 
 struct Options {
-  // A contact is reported once a pair is closer than min_separation + tolerance (model length, > 0). Unset:
+  // A pair may be reported once it is closer than min_separation + tolerance (model length, > 0). Unset:
   // relative_tolerance times the scene's R, the largest corner difference of an overlapping pair. The value
   // used is reported in the result. The tolerance trades time for false positives; misses never happen at any
   // value.

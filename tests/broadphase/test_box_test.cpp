@@ -31,7 +31,7 @@ double to_and_fro(int i) { return i % 2 == 0 ? 5 : -5; }
 
 }  // namespace
 
-TEST_CASE("boxes that pass are dropped where edges move by more than twice their size", "[unit]") {
+TEST_CASE("the passing test is chosen where edges move by more than twice their size", "[unit]") {
   CHECK(choice(edges(300, to_and_fro)) == BoxTest::passing);
   CHECK(choice(edges(3, to_and_fro)) == BoxTest::passing);
   CHECK(choice(edges(300, [](int i) { return 0.3 * to_and_fro(i); })) == BoxTest::motion);

@@ -22,7 +22,7 @@ Soup middle_soup(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("blocks traversed one by one give what one call gives, in the same order", "[unit]") {
+TEST_CASE("blocks traversed one by one give what one call gives, each pair once", "[unit]") {
   const Soup soup = middle_soup(1);
   const Motion motion = soup.motion();
   for (const Method& m : methods()) {
