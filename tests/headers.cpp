@@ -1,0 +1,1 @@
+// Nothing: a home for the precompiled headers.
