@@ -65,7 +65,7 @@ inline Closer look_closer(const Directions& directions) {
   return {certainly_apart(most), ~certainly_together(least)};
 }
 
-// Where boxes may pass: the lanes that touch on an axis where equal floats need not be equal doubles.
+// Where boxes may pass one another: the lanes that touch on an axis where equal floats need not be equal doubles.
 template <bool kMotion, class Directions>
 inline int touching(const Directions& directions, int rounded_axes) {
   int lanes = 0;

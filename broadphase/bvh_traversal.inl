@@ -79,17 +79,20 @@ class Traversal {
     return {overlap<kMotion>(box, stride, block), F8{}, F8{}};
   }
 
+  static Direction direction_of(const float* box, int stride, const float* block, int k) {
+    const int across = opposite(k);
+    Direction d{broadcast(box + across * stride), F8{}, load(block + k * kLanes), F8{}};
+    if (kMotion) d.a1 = broadcast(box + (6 + across) * stride), d.b1 = load(block + (6 + k) * kLanes);
+    return d;
+  }
+
   // Lanes of a block of nodes that may meet a box.
   int meeting(const float* box, int stride, const float* block) const {
     const Reach r = reach_of(box, stride, block);
     const int mask = mask_not_negative(r.at_both);
     if (!kPassing || !t_.linear || (mask & mask_negative(r.at_start & r.at_end)) == 0) return mask;
-    const auto direction = [&](int k) {
-      const int across = opposite(k);
-      return Direction{broadcast(box + across * stride), broadcast(box + (6 + across) * stride),
-                       load(block + k * kLanes), load(block + (6 + k) * kLanes)};
-    };
-    return mask & ~look_closer(direction).apart;
+    const auto direction = [&](int k) { return direction_of(box, stride, block, k); };
+    return mask & ~ONSET_KERNEL::look_closer(direction).apart;
   }
 
   // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
@@ -158,6 +161,7 @@ class Traversal {
 
   void emit() {
     const Leaves query(t_.query), tree(t_.tree);  // copies: what is written cannot change them
+    const bool rounded = t_.rounded_axes != 0;
     const Pairs& from = children_[0];
     const int items = from.count;
     IdPair* out = out_ + count_;
@@ -170,14 +174,10 @@ class Traversal {
       if (kKeyed) shared = shared | apart(c, b);
       int mask = mask_neither_negative(r.at_both, shared) & unpaired(c, b);
       if (kKeyed) mask = without_excluded(mask, c, b);
-      if (const int doubt = mask == 0 ? 0 : mask & in_doubt(r); doubt != 0) {
-        doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
-        mask &= ~doubt;
-        if (doubtful_.full()) {
-          count_ = std::size_t(out - out_);
-          settle_doubtful();
-          out = out_ + count_;
-        }
+      if (const int doubt = in_doubt(mask, r, rounded); doubt != 0) {
+        count_ = std::size_t(out - out_);
+        mask &= ~defer(c, b, doubt);
+        out = out_ + count_;
       }
       const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
       if (kEdges)
@@ -229,34 +229,32 @@ class Traversal {
     return mask;
   }
 
-  // Lanes for which signs in float do not tell: of boxes that pass, all that overlap at neither end, or only touch there.
-  int in_doubt(const Reach& r) const {
-    if (kPassing) return mask_not_positive(r.at_start) & mask_not_positive(r.at_end);
-    return t_.rounded_axes != 0 ? mask_zero(r.at_both) : 0;
+  // Lanes of `mask` for which signs in float may not tell: of boxes that pass, all that overlap at neither end, or only
+  // touch there; else those that touch, where some axis is rounded.
+  static int in_doubt(int mask, const Reach& r, bool rounded) {
+    if (kPassing) return mask == 0 ? 0 : mask & mask_not_positive(r.at_start) & mask_not_positive(r.at_end);
+    return rounded ? mask & mask_zero(r.at_both) : 0;
   }
 
-  // What is in doubt, eight pairs at a time: decided in float where that will do, else in double. (Rare: kept out of the
-  // loops that it is called from.)
-  __attribute__((noinline)) void settle_doubtful() {
+  // Puts off those of these lanes that float cannot decide; returns them. (Not inlined: the loop that it is called from has
+  // no register to spare.)
+  __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
+    const float *box = Leaves(t_.query).box(c), *block = Leaves(t_.tree).block(b);
+    if (!kPassing)
+      doubt &= touching<kMotion>([&](int k) { return direction_of(box, kLanes, block, k); }, t_.rounded_axes);
+    doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
+    if (doubtful_.full()) settle_doubtful();
+    return doubt;
+  }
+
+  // What is in doubt, eight pairs at a time: decided in float where that will do, else in double.
+  void settle_doubtful() {
     const Leaves query(t_.query), tree(t_.tree);
     for (int first = 0; first < doubtful_.count; first += kLanes) {
       const int *a = doubtful_.a + first, *b = doubtful_.b + first, left = doubtful_.count - first;
       const int lanes = left < kLanes ? (1 << left) - 1 : 0xff;
-      const float *boxes_a[kLanes], *boxes_b[kLanes];
-      for (int l = 0; l < kLanes; ++l) {
-        const int from = l < left ? l : 0;
-        boxes_a[l] = query.box(unsigned(a[from])), boxes_b[l] = tree.box(unsigned(b[from]));
-      }
-      const auto direction = [&](int k) {
-        const int across = opposite(k);
-        Direction d;
-        d.a0 = collect(boxes_a, across * kLanes), d.b0 = collect(boxes_b, k * kLanes);
-        if (kMotion) d.a1 = collect(boxes_a, (6 + across) * kLanes), d.b1 = collect(boxes_b, (6 + k) * kLanes);
-        return d;
-      };
       Closer p{0, 0xff};
-      if (!kPassing) p.unsure = touching<kMotion>(direction, t_.rounded_axes);
-      else if (t_.linear) p = look_closer(direction);
+      if (kPassing && t_.linear) p = look_closer(a, b, left);
       for (int open = lanes & ~p.apart; open != 0; open &= open - 1) {
         const int lane = lowest_lane(open), x = query.ids[a[lane]], y = tree.ids[b[lane]];
         if ((p.unsure >> lane & 1) != 0 && !t_.meets(t_.context, x, y)) continue;
@@ -265,6 +263,21 @@ class Traversal {
       }
     }
     doubtful_.count = 0;
+  }
+
+  // Eight leaves against eight others.
+  Closer look_closer(const int* a, const int* b, int count) const {
+    const Leaves query(t_.query), tree(t_.tree);
+    const float *boxes_a[kLanes], *boxes_b[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const int from = l < count ? l : 0;
+      boxes_a[l] = query.box(unsigned(a[from])), boxes_b[l] = tree.box(unsigned(b[from]));
+    }
+    return ONSET_KERNEL::look_closer([&](int k) {
+      const int across = opposite(k);
+      return Direction{collect(boxes_a, across * kLanes), collect(boxes_a, (6 + across) * kLanes), collect(boxes_b, k * kLanes),
+                       collect(boxes_b, (6 + k) * kLanes)};
+    });
   }
 
   void flush() {
