@@ -3,7 +3,7 @@
 #   measure-performance.sh [quick] [PART ...]     parts: ipctk, candidates, peers, threads, size, huge, profile, memory,
 #                                                 traffic; default: all
 # quick: one small scene, few repeats, to try the script; writes build/performance-quick/performance.md instead.
-# Needs ONSET_DATA, the folder of the real data. About 14 minutes on 2 cores and 16 GiB; nothing else should run meanwhile.
+# Needs ONSET_DATA, the folder of the real data. About 16 minutes on 2 cores and 16 GiB; nothing else should run meanwhile.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build="${ONSET_BUILD:-$root/build}"
@@ -13,7 +13,7 @@ bench="$root/apps/bench"
 : "${ONSET_DATA:?the folder that holds scenes/}"
 
 document="$root/docs/performance.md"
-repeats=3 rounds=15 every=60 largest=10000000 refine=4 seconds=4 limit=40 memory=10 factor=10 rounds_of_peers=5 mib=256 scenes='*'
+repeats=3 rounds=15 every=60 largest=10000000 refine=4 seconds=4 limit=40 memory=10 factor=10 rounds_of_peers=15 mib=256 scenes='*'
 if [ "${1:-}" = quick ]; then
   shift
   out="$build/performance-quick"
