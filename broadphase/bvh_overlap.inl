@@ -10,22 +10,35 @@ namespace {
 
 constexpr int opposite(int row) { return (row + 3) % 6; }
 
-// Supports of one box, `stride` floats apart, against a block of eight: per lane the smallest overlap over
-// the six directions, each the larger of its values at the two ends. Negative: separated on the same side at
-// both ends. (Inlined even into large loops: with a call, eight floats would go through memory.)
+// Supports of one box, `stride` floats apart, against a block of eight: per lane the overlap in one of six directions, the
+// larger of its values at the two ends. (Inlined even into large loops: with a call, eight floats would go through memory.)
+template <bool kMotion>
+__attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block, int k) {
+  const F8 reach = broadcast(box + opposite(k) * stride) + load(block + k * kLanes);
+  if (!kMotion) return reach;
+  return max(broadcast(box + (6 + opposite(k)) * stride) + load(block + (6 + k) * kLanes), reach);
+}
+
+// The smallest over the six. Negative: separated on the same side at both ends.
 template <bool kMotion>
 __attribute__((always_inline)) inline F8 overlap(const float* box, int stride, const float* block) {
-  F8 least{};
-  for (int k = 0; k < 6; ++k) {
-    F8 reach = broadcast(box + opposite(k) * stride) + load(block + k * kLanes);
-    if (kMotion)
-      reach = max(broadcast(box + (6 + opposite(k)) * stride) + load(block + (6 + k) * kLanes), reach);
-    least = k == 0 ? reach : min(reach, least);
-  }
+  F8 least = overlap_along<kMotion>(box, stride, block, 0);
+  for (int k = 1; k < 6; ++k) least = min(overlap_along<kMotion>(box, stride, block, k), least);
   return least;
 }
 
-// The same of motion boxes, and the smallest overlap at the start and at the end.
+// The lanes that touch on an axis where equal floats need not be equal doubles.
+template <bool kMotion>
+inline int touching(const float* box, int stride, const float* block, int rounded_axes) {
+  int lanes = 0;
+  for (int k = 0; k < 6; ++k) {
+    if ((rounded_axes >> k % 3 & 1) == 0) continue;
+    lanes |= mask_zero(overlap_along<kMotion>(box, stride, block, k));
+  }
+  return lanes;
+}
+
+// The same as `overlap` of motion boxes, and the smallest overlap at the start and at the end.
 struct Reach {
   F8 at_both, at_start, at_end;
 };

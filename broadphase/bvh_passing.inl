@@ -65,19 +65,6 @@ inline Closer look_closer(const Directions& directions) {
   return {certainly_apart(most), ~certainly_together(least)};
 }
 
-// Where boxes may pass one another: the lanes that touch on an axis where equal floats need not be equal doubles.
-template <bool kMotion, class Directions>
-inline int touching(const Directions& directions, int rounded_axes) {
-  int lanes = 0;
-  for (int k = 0; k < 6; ++k) {
-    if ((rounded_axes >> k % 3 & 1) == 0) continue;
-    const Direction d = directions(k);
-    const F8 s0 = d.a0 + d.b0;
-    lanes |= mask_zero(kMotion ? max(s0, d.a1 + d.b1) : s0);
-  }
-  return lanes;
-}
-
 }  // namespace
 }  // namespace ONSET_KERNEL
 }  // namespace onset

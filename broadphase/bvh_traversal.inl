@@ -79,20 +79,17 @@ class Traversal {
     return {overlap<kMotion>(box, stride, block), F8{}, F8{}};
   }
 
-  static Direction direction_of(const float* box, int stride, const float* block, int k) {
-    const int across = opposite(k);
-    Direction d{broadcast(box + across * stride), F8{}, load(block + k * kLanes), F8{}};
-    if (kMotion) d.a1 = broadcast(box + (6 + across) * stride), d.b1 = load(block + (6 + k) * kLanes);
-    return d;
-  }
-
   // Lanes of a block of nodes that may meet a box.
   int meeting(const float* box, int stride, const float* block) const {
     const Reach r = reach_of(box, stride, block);
     const int mask = mask_not_negative(r.at_both);
     if (!kPassing || !t_.linear || (mask & mask_negative(r.at_start & r.at_end)) == 0) return mask;
-    const auto direction = [&](int k) { return direction_of(box, stride, block, k); };
-    return mask & ~ONSET_KERNEL::look_closer(direction).apart;
+    const auto direction = [&](int k) {
+      const int across = opposite(k);
+      return Direction{broadcast(box + across * stride), broadcast(box + (6 + across) * stride),
+                       load(block + k * kLanes), load(block + (6 + k) * kLanes)};
+    };
+    return mask & ~look_closer(direction).apart;
   }
 
   // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
@@ -239,9 +236,8 @@ class Traversal {
   // Puts off those of these lanes that float cannot decide; returns them. (Not inlined: the loop that it is called from has
   // no register to spare.)
   __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
-    const float *box = Leaves(t_.query).box(c), *block = Leaves(t_.tree).block(b);
     if (!kPassing)
-      doubt &= touching<kMotion>([&](int k) { return direction_of(box, kLanes, block, k); }, t_.rounded_axes);
+      doubt &= touching<kMotion>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
     doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
     if (doubtful_.full()) settle_doubtful();
     return doubt;
@@ -254,7 +250,7 @@ class Traversal {
       const int *a = doubtful_.a + first, *b = doubtful_.b + first, left = doubtful_.count - first;
       const int lanes = left < kLanes ? (1 << left) - 1 : 0xff;
       Closer p{0, 0xff};
-      if (kPassing && t_.linear) p = look_closer(a, b, left);
+      if (kPassing && t_.linear) p = compare(a, b, left);
       for (int open = lanes & ~p.apart; open != 0; open &= open - 1) {
         const int lane = lowest_lane(open), x = query.ids[a[lane]], y = tree.ids[b[lane]];
         if ((p.unsure >> lane & 1) != 0 && !t_.meets(t_.context, x, y)) continue;
@@ -266,14 +262,14 @@ class Traversal {
   }
 
   // Eight leaves against eight others.
-  Closer look_closer(const int* a, const int* b, int count) const {
+  Closer compare(const int* a, const int* b, int count) const {
     const Leaves query(t_.query), tree(t_.tree);
     const float *boxes_a[kLanes], *boxes_b[kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const int from = l < count ? l : 0;
       boxes_a[l] = query.box(unsigned(a[from])), boxes_b[l] = tree.box(unsigned(b[from]));
     }
-    return ONSET_KERNEL::look_closer([&](int k) {
+    return look_closer([&](int k) {
       const int across = opposite(k);
       return Direction{collect(boxes_a, across * kLanes), collect(boxes_a, (6 + across) * kLanes), collect(boxes_b, k * kLanes),
                        collect(boxes_b, (6 + k) * kLanes)};

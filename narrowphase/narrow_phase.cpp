@@ -302,9 +302,11 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
     KernelPairs whole = c.input;
     whole.horizon = 1;  // what is reported at 0 is reported with its step_limit
     finish({c.kind, c.pair, whole, c.row}, later, parting.t, stats, next);
-    r.step_limit = next.empty() ? 1 : next[0].step_limit;
-    if (!next.empty()) r.limit_certainty = next[0].certainty;
-    if (!next.empty()) stats.note_outcome(next[0]);
+    r.step_limit = 1;
+    if (!next.empty()) {
+      r.step_limit = next[0].step_limit, r.limit_certainty = next[0].certainty;
+      stats.note_outcome(next[0]);
+    }
   }
   if (parting.t > 0 && truth.answer == Answer::yes && truth.time.lo > 0)
     r.step_limit = std::min(r.step_limit, truth.time.lo);
