@@ -18,6 +18,7 @@ struct MeshData {
   std::vector<std::array<int, 2>> edges;  // the last num_points: {v, v}, of vertices of no other
   std::vector<std::array<int, 3>> faces;
   std::vector<double> thickness;  // empty: none; else one value >= 0 a vertex
+  bool weld = false;              // vertices at one place at both ends of a motion count as one
 
   // Who may meet whom; empty where nothing was set.
   std::vector<int> body;                                               // a vertex; empty: all in body 0

@@ -264,6 +264,10 @@ void Mesh::set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs) {
   change([&](MeshData& data) { data.excluded_vertices = std::move(checked); });
 }
 
+void Mesh::set_weld(bool on) {
+  change([&](MeshData& data) { data.weld = on; });
+}
+
 void Mesh::set_full_vertices(const std::vector<int>& ids, std::ptrdiff_t full_vertices) {
   check_size("full vertices", ids.size(), num_vertices(), "vertices");
   std::vector<bool> taken(std::size_t(checked_count(full_vertices)));

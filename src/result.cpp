@@ -14,6 +14,8 @@ const char* to_string(Outcome outcome) {
       return "initial_separating";
     case Outcome::budget:
       return "budget";
+    case Outcome::below_rounding:
+      return "below_rounding";
     case Outcome::non_finite:
       return "non_finite";
     case Outcome::out_of_range:

@@ -81,6 +81,12 @@ struct Options {
   // none.
   CertaintyLevel certainty = CertaintyLevel::certify;
 
+  // A pair whose gap at x_t0 is exactly 0 blocks the step: from which side it came is not in the positions, so a motion
+  // that seems to part it may as well push it through. true: such a pair may leave its contact in any direction, as
+  // if that were the side it came from, and what touches within rounding of the start is not looked at. For starts
+  // that are known to touch from the right side only.
+  bool touching_may_pass_through = false;
+
   BroadPhaseMethod broad_phase = BroadPhaseMethod::automatic;
   NarrowPhaseMethod narrow_phase = NarrowPhaseMethod::automatic;
   Kernel kernel = Kernel::automatic;

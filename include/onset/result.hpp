@@ -22,6 +22,9 @@ enum class Outcome : std::uint8_t {
   initial_separating,  // the same at t = 0, but the motion parts the pair: toi 0, and a step may go on to
                        // step_limit
   budget,              // max_checks spent: free until toi, undecided after
+  // A pair comes, or starts, so close that storing positions in doubles could close its gap: the step ends before
+  // that, at 0 where the gap is too small from the start. StepResult::toi says whether the exact motion touches.
+  below_rounding,
   non_finite,          // a position is NaN or infinite: step 0, `vertex` names the first
   out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
   // The call ended early (Options: budgets of one call); pairs that were not looked at may touch at any time:
@@ -86,8 +89,15 @@ struct Stats {
 };
 
 struct StepResult {
-  double step =
-      0;  // in [0, 1]: x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step), exact motion
+  // In [0, 1]: x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step] along the exact motion, and at
+  // s = step also in whatever order of operations it is rounded to doubles.
+  double step = 0;
+  // The earliest contact of the exact motion: never later, infinite where there is none. With
+  // CertaintyLevel::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
+  double toi = INFINITY;
+  // Model length: bound on how much storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance. A pair
+  // whose gap at x_t0 is more than twice this never gets a step of 0.
+  double rounding = 0;
   Outcome outcome = Outcome::free;
   Pair limiting;    // the pair that limits the step (a = -1 where none does)
   int vertex = -1;  // the offending vertex of non_finite and out_of_range
