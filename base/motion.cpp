@@ -307,16 +307,12 @@ void finish_motion(Motion& m) {
   store_permuted(m);
 }
 
-// Storing x_t0 + step dx rounds: fl(x + fl(s dx)) errs per coordinate by u |s dx| + u |x_new|, and x_t1 =
-// fl(x + dx), on which the certificates stand, by u |x_t1|: below 4u M in all with M the largest coordinate
-// (|dx| <= 2M). A distance changes by at most sqrt(3) times that at each of its two points: 8 sqrt(3) u M <
-// 14u M.
 double rounding_of_distances(const Motion& m) {
   double largest = 0;
   for (int v = 0; v < m.num_vertices; ++v)
     for (const double* x : {m.t0(v), m.t1(v)})
       for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x[a]));
-  return 14 * 0x1p-53 * largest;
+  return (kStoring * largest + 0x1p-1070) * (1 + 0x1p-50);
 }
 
 double Extents::largest() const {

@@ -58,9 +58,12 @@ class Search {
       triangle();
     else
       edges();
-    ClosestPoints r{{}, std::sqrt(best_.ww) * d_.unit, 0};
+    ClosestPoints r{{}, std::sqrt(best_.ww) * d_.unit, 0, 0, {}};
     for (int i = 0; i < 4; ++i) r.weights[i] = best_.weights[i] + 0.0;  // no -0
     r.lower = std::max(lower_bound(best_.w), lower_bound(normal_)) * d_.unit - 0x1p-1074;
+    const Vec w = unit(lower_bound(best_.w) > lower_bound(normal_) ? best_.w : normal_);
+    for (int a = 0; a < 3; ++a) r.direction[a] = w[a];
+    r.upper = r.distance * (1 + 0x1p-49) + 0x1p-48 * d_.unit * 2;
     return r;
   }
 

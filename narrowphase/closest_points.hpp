@@ -9,6 +9,8 @@ struct ClosestPoints {
   double weights[4];  // signed, as in ClosePair
   double distance;    // of the points the weights stand for
   double lower;       // <= the exact distance of the pair; may be negative
+  double upper;
+  double direction[3];
 };
 
 // x: the four points of the pair, three coordinates each (model length, finite, within kMaxCoordinate).
