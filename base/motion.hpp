@@ -81,6 +81,9 @@ void finish_motion(Motion& m);
 // sqrt(3) times twice that: 10 sqrt(3) u M = 17.4u M; 18.5u covers second order. For the maximum norm it is less.
 inline constexpr double kStoring = 18.5 * 0x1p-53;
 
+// Whether a vertex of one side of a pair is where one of the other is, exactly, at both ends: a seam (MeshData::weld).
+bool is_seam(const Motion& m, PairKind kind, const std::array<int, 4>& vertices);
+
 // Model length: that bound of the change of a distance, for all pairs.
 double rounding_of_distances(const Motion& m);
 

@@ -1,6 +1,7 @@
 #include "src/pass.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/parallel.hpp"
@@ -306,6 +307,7 @@ void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, 
   }
   const Limits& limits = pass.limits;
   r.step = upper;
+  r.toi = INFINITY;
   if (limits.contact) {
     const PairResult& contact = limits.contact->result;
     r.toi = contact.step_limit;

@@ -191,12 +191,16 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
 
 namespace {
 
-// Nothing is listed any more once `room` (pairs) is used up.
-void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::atomic<std::int64_t>& room,
-                     Budget& budget, std::vector<std::array<int, 2>>& pairs, std::int64_t& count) {
+// Nothing is listed any more once `room` (pairs) is used up. `welds`: where it is not null, seams of it are left out.
+void list_candidates(const Mesh& mesh, const BroadPhase& broad, PairKind kind, bool list, const Motion* welds,
+                     std::atomic<std::int64_t>& room, Budget& budget, std::vector<std::array<int, 2>>& pairs,
+                     std::int64_t& count) {
   std::mutex mutex;
   struct Task {
+    const MeshData& mesh;
+    PairKind kind;
     bool list;
+    const Motion* welds;
     std::atomic<std::int64_t>& room;
     Budget& budget;
     std::int64_t count;
@@ -204,13 +208,21 @@ void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::ato
     static void consume(void* context, const IdPair* p, std::size_t n) {
       auto& task = *static_cast<Task*>(context);
       if (task.budget.spent()) return;
+      if (task.welds != nullptr) return task.consume_unwelded(p, n);
       task.count += std::int64_t(n);
       if (task.list && (task.room -= std::int64_t(n)) >= 0)
         for (std::size_t i = 0; i < n; ++i) task.pairs.push_back({p[i].a, p[i].b});
     }
+    void consume_unwelded(const IdPair* p, std::size_t n) {
+      for (std::size_t i = 0; i < n; ++i) {
+        if (is_seam(*welds, kind, pair_vertices(mesh, kind, p[i]))) continue;
+        ++count;
+        if (list && --room >= 0) pairs.push_back({p[i].a, p[i].b});
+      }
+    }
   };
   parallel_ranges(broad.blocks(kind), 64, [&](std::size_t first, std::size_t last) {
-    Task task{list, room, budget, 0, {}};
+    Task task{mesh.data(), kind, list, welds, room, budget, 0, {}};
     if (!budget.spent()) broad.traverse(kind, first, last, {&task, &Task::consume});
     if (!budget.spent()) budget.advance(last - first);
     const std::lock_guard<std::mutex> lock(mutex);
@@ -236,9 +248,11 @@ Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Pos
     if (scene.broad) {
       budget.begin_pass(scene.broad->blocks(PairKind::vertex_face) +
                         scene.broad->blocks(PairKind::edge_edge));
-      list_candidates(*scene.broad, PairKind::vertex_face, list, room, budget, c.vertex_face,
+      const Motion* welds = mesh.data().weld ? &scene.motion : nullptr;
+      list_candidates(mesh, *scene.broad, PairKind::vertex_face, list, welds, room, budget, c.vertex_face,
                       c.counts.vertex_face);
-      list_candidates(*scene.broad, PairKind::edge_edge, list, room, budget, c.edge_edge, c.counts.edge_edge);
+      list_candidates(mesh, *scene.broad, PairKind::edge_edge, list, welds, room, budget, c.edge_edge,
+                      c.counts.edge_edge);
     }
     c.outcome = room < 0 ? Outcome::out_of_memory : budget.outcome();
     if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = {};

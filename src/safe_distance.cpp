@@ -97,6 +97,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     if (budget.outcome() != Outcome::free) {
       r.step = step_by_gaps(mesh, x_t0, x_t1, close, keep);
       if (r.step == 1) r.outcome = Outcome::free;
+      r.toi = r.step;
       r.stats.seconds_total = clock.seconds();
       return;
     }

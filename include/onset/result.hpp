@@ -94,7 +94,8 @@ struct StepResult {
   double step = 0;
   // The earliest contact of the exact motion: never later, infinite where there is none. With
   // CertaintyLevel::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
-  double toi = INFINITY;
+  // 0 where the call ended early and nothing is known.
+  double toi = 0;
   // Model length: bound on how much storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance. A pair
   // whose gap at x_t0 is more than twice this never gets a step of 0.
   double rounding = 0;
