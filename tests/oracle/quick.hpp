@@ -1,0 +1,13 @@
+// Proofs in doubles that a pair makes no contact, for tests that ask about millions of pairs: true only where
+// it is so.
+#pragma once
+
+#include "tests/scenes/query.hpp"
+
+namespace onset::oracle {
+
+// Whether the pair certainly touches at no time in [0, until], and stays apart when every coordinate at
+// `until` is then changed by at most `moved` >= 0, on the straight way there too.
+bool surely_apart(const scenes::Query& query, double until = 1, double moved = 0);
+
+}  // namespace onset::oracle
