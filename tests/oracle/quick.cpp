@@ -18,8 +18,10 @@ double largest(const Vec& a, const Vec& b) {
 
 double determinant(const Vec& q, const Vec& a, const Vec& b) { return dot(q, cross(a, b)); }
 
-// The boxes of the whole motion are farther apart than 2 moved on some axis.
-bool boxes_apart(const scenes::Query& query, double moved) {
+}  // namespace
+
+// A difference of doubles is off by half a unit in its last place.
+bool boxes_apart(const scenes::Query& query, double gap) {
   for (std::size_t k = 0; k < 3; ++k) {
     double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -27,12 +29,10 @@ bool boxes_apart(const scenes::Query& query, double moved) {
       lo[second] = std::min({lo[second], query.t0[i][k], query.t1[i][k]});
       hi[second] = std::max({hi[second], query.t0[i][k], query.t1[i][k]});
     }
-    if (std::max(lo[0] - hi[1], lo[1] - hi[0]) * (1 - 0x1p-50) > 2 * moved) return true;
+    if (std::max(lo[0] - hi[1], lo[1] - hi[0]) * (1 - 0x1p-50) > gap) return true;
   }
   return false;
 }
-
-}  // namespace
 
 // The four points are coplanar where f(t) = det(q, a, b) is zero. With Q, A, B the largest components of the
 // computed differences at both ends, f's Bernstein coefficients are means of up to three determinants of six
@@ -41,7 +41,7 @@ bool boxes_apart(const scenes::Query& query, double moved) {
 // the 1 for terms of second order. Moving every coordinate by at most m changes differences by 2m and a
 // determinant by less than 6 * 3 * 2m D^2, D = max(Q, A, B) + 2m.
 bool surely_apart(const scenes::Query& query, double until, double moved) {
-  if (boxes_apart(query, moved)) return true;
+  if (boxes_apart(query, 2 * moved)) return true;
   const auto r0 = relative(query.kind, std::array<Vec, 4>(query.t0)),
              r1 = relative(query.kind, std::array<Vec, 4>(query.t1));
   const double q = largest(r0.q, r1.q), a = largest(r0.a, r1.a), b = largest(r0.b, r1.b);

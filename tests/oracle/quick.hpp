@@ -10,4 +10,7 @@ namespace onset::oracle {
 // `until` is then changed by at most `moved` >= 0, on the straight way there too.
 bool surely_apart(const scenes::Query& query, double until = 1, double moved = 0);
 
+// Whether the boxes of the whole motion are certainly farther apart than `gap` >= 0 on some axis.
+bool boxes_apart(const scenes::Query& query, double gap);
+
 }  // namespace onset::oracle
