@@ -18,29 +18,12 @@ namespace {
 using P = Polynomial<Rational>;
 using Points = ExactPoints;
 
-// Whether the Bernstein coefficients on [0, 1] have one sign.
-bool surely_no_root(const P& f) {
-  const int n = f.degree();
-  int first = 0;
-  for (int i = 0; i <= n; ++i) {
-    Rational sum = 0, weight = 1;  // weight: C(i, j) / C(n, j)
-    for (int j = 0; j <= i; ++j) {
-      sum += weight * f[j];
-      if (j < i) weight *= Rational(i - j) / Rational(n - j);
-    }
-    const int s = sign(sum);
-    if (s == 0 || (i > 0 && s != first)) return false;
-    first = s;
-  }
-  return n >= 0;
-}
-
 class Earliest {
  public:
   // At a root of f where `inside` holds.
   template <class F>
   void look(const P& f, F&& inside) {
-    if (f.is_zero() || surely_no_root(f)) return;
+    if (f.is_zero()) return;
     for (Root<Rational>& root : roots_in_unit_interval(f))
       if (inside(root)) return add(to_doubles(root));
   }

@@ -13,10 +13,10 @@ Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::Matr
   return x_t0 + dx;
 }
 
-CallStep Calls::search(const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
+CallStep Calls::search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
                        const Options& options) const {
   const LineSearchStep r =
-      LineSearch(mesh_, x_t0, Eigen::MatrixXd(x_t1 - x_t0), options, kKeep).largest_step();
+      LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), options, kKeep).largest_step();
   CallStep step{r.result, r.keep, r.result.stats.tolerance};
   step.result.rounding = r.rounding;
   return step;
@@ -28,7 +28,7 @@ CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixX
     case Call::whole:
       return {compute_collision_free_stepsize(mesh_, x_t0, x_t1, options)};
     case Call::line_search:
-      return search(x_t0, x_t1, options);
+      return search(mesh_, x_t0, x_t1, options);
     case Call::listed: {
       const Candidates list = compute_candidates(mesh_, x_t0, x_t1, options);
       const StepResult r = compute_collision_free_stepsize(mesh_, list, x_t0, x_t1, options, kKeep);
@@ -39,7 +39,7 @@ CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixX
       return {compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options), kKeep, kKeep * d_hat};
     }
     case Call::adapter: {
-      CallStep step = search(x_t0, x_t1, options);  // for what the adapter does not say
+      CallStep step = search(mesh(call), x_t0, x_t1, options);  // for what the adapter does not say
       ipc::TightInclusionCCD ccd;
       ccd.tolerance = options.tolerance.value_or(ccd.tolerance), ccd.max_iterations = options.max_checks;
       step.keep = 1 - ccd.conservative_rescaling, step.reach = ccd.tolerance, step.says_outcome = false;

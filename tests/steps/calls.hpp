@@ -27,13 +27,16 @@ class Calls {
   explicit Calls(const StepScene& scene)
       : mesh_(scene.mesh()), adapter_(scene.x_t0, scene.edges, scene.faces) {}
   const Mesh& mesh() const { return mesh_; }
+  // That of the call: the adapter tests points against edges and each other as well.
+  const Mesh& mesh(Call call) const { return call == Call::adapter ? adapter_.onset_mesh() : mesh_; }
   // d_hat: of the close pairs, > 0. The adapter takes a tolerance, a number of checks and a Euclidean
   // separation.
   CallStep ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Options& options,
                double d_hat) const;
 
  private:
-  CallStep search(const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Options& options) const;
+  CallStep search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
+                  const Options& options) const;
 
   Mesh mesh_;
   ipc::CollisionMesh adapter_;

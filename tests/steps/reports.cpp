@@ -122,8 +122,9 @@ static std::string broken_by_call(const Asked& asked, const SceneTruth& truth, c
                                   double d_hat) {
   const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat);
   const Eigen::MatrixXd end = end_of(call, asked.x_t0, asked.x_t1);
-  const Asked told{asked.mesh, asked.x_t0, end, asked.options, asked.thickness};
-  const SceneTruth of_end = call == Call::line_search && end != asked.x_t1 ? SceneTruth(told) : truth;
+  const Asked told{calls.mesh(call), asked.x_t0, end, asked.options, asked.thickness};
+  const bool another = end != asked.x_t1 || told.mesh.num_points() > 0;
+  const SceneTruth of_end = another ? SceneTruth(told) : truth;
   std::string broken = broken_by_moving(told, of_end, step.result.step, step.result.rounding);
   if (broken.empty()) broken = stuck(told, of_end, step.result);
   if (broken.empty() && step.says_outcome) broken = wrong_report(told, of_end, step.result, call);
