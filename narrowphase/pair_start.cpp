@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kU = 0x1p-53;
 
-// The pair's points at time t, relative to its first one, scaled as the corners: at t = 0 as exact as the corners, later off by 4u
-// of relative positions no longer than 3 rho, so a difference by less than 32u rho.
-void points_at(const double* const (&t0)[4], const double* const (&t1)[4], double t, double unit, double (&x)[4][3]) {
-  for (int i = 0; i < 4; ++i)
-    for (int a = 0; a < 3; ++a)
-      x[i][a] = (1 - t) * ((t0[i][a] - t0[0][a]) / unit) + t * ((t1[i][a] - t1[0][a]) / unit);
-}
-
 double least(const Corners& corners, double t, const Vec& w) {
   double at[4][3], r = INFINITY;
   corners.at(t, at);
@@ -64,17 +56,12 @@ NarrowPhase::Bounds NarrowPhase::bounds_at(const Case& c, const Corners& corners
     r.lower = size > 0 ? (product - 8 * kU * corners.rho) / size * (1 - 0x1p-49) : -INFINITY;
     return r;
   }
-  double x[4][3];
-  const double *t0[4], *t1[4];
-  for (int i = 0; i < 4; ++i) t0[i] = in_.motion.t0(c.vertices()[i]), t1[i] = in_.motion.t1(c.vertices()[i]);
-  const double noise = t == 0 ? 0 : 32 * kU * corners.rho;
-  points_at(t0, t1, t, corners.unit, x);
-  const double* const relative[4] = {x[0], x[1], x[2], x[3]};
-  const ClosestPoints found = t == 0 ? closest_points(c.kind, t0) : closest_points(c.kind, relative);
-  const double unit = t == 0 ? corners.unit : 1;
-  r.w = {{found.direction[0], found.direction[1], found.direction[2]}};
-  r.lower = found.lower / unit - noise;
-  r.upper = found.upper / unit + noise;
+  const ExactPair pair = exact_pair(c.kind, c.vertices());
+  const ClosestPoints found =
+      t == 0 ? closest_points(c.kind, pair.t0) : closest_points(c.kind, pair.t0, pair.t1, t);
+  r.w = vec(found.direction);
+  r.lower = found.lower / corners.unit;
+  r.upper = found.upper / corners.unit;
   return r;
 }
 
