@@ -1,148 +1,217 @@
 #include "narrowphase/closest_points.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "narrowphase/vec.hpp"
+#include "narrowphase/nearest.hpp"
 
 namespace onset {
 namespace {
 
-// The differences first - second of a pair, scaled by a power of two so that the largest component is in
-// [1, 2), or all are 0. The relative error of a component is u.
-struct Differences {
-  Vec c[4];
-  int count;
-  double unit;
-};
+// In units of a power of two, so that the largest component of a corner difference is in [1, 2) or all are 0
+// (of subnormal ones it is in [2^-53, 2)).
+double inverse_unit(double largest) {
+  return largest > 0 ? std::ldexp(1.0, -std::max(std::ilogb(largest), -1021)) : 1;
+}
 
 Vec difference(const double* p, const double* q, double scale) {
   return {{(p[0] - q[0]) * scale, (p[1] - q[1]) * scale, (p[2] - q[2]) * scale}};
 }
-
-Differences differences(PairKind kind, const double* const (&x)[4], double scale) {
-  Differences d{{}, kind == PairKind::vertex_face ? 3 : 4, 1};
-  for (int k = 0; k < d.count; ++k)
-    d.c[k] = d.count == 3 ? difference(x[0], x[1 + k], scale) : difference(x[k / 2], x[2 + k % 2], scale);
-  return d;
-}
-
-double largest_component(const Differences& d) {
-  double r = 0;
-  for (int k = 0; k < d.count; ++k)
-    for (const double c : d.c[k].x) r = std::max(r, std::fabs(c));
+VecOf<DoubleDouble> precise_difference(const double* p, const double* q, double scale) {
+  VecOf<DoubleDouble> r;
+  for (int i = 0; i < 3; ++i) r[i] = scaled(two_difference(p[i], q[i]), scale);
   return r;
 }
 
-// A point of the polygon of differences by the weights of the four vertices.
-struct Candidate {
-  double weights[4];
-  Vec w;
-  double ww;
+// One rounding each.
+Differences<double> differences(PairKind kind, const double* const (&x)[4], double scale) {
+  const bool triangle = kind == PairKind::vertex_face;
+  Differences<double> d{kind, {}, {}, {}, {}};
+  for (int k = 0; k < d.corners(); ++k)
+    d.corner[k] = triangle ? difference(x[0], x[1 + k], scale) : difference(x[k / 2], x[2 + k % 2], scale);
+  d.q = d.corner[0];
+  d.a = triangle ? difference(x[2], x[1], scale) : difference(x[0], x[1], scale);
+  d.b = triangle ? difference(x[3], x[1], scale) : difference(x[3], x[2], scale);
+  return d;
+}
+// None but where 2^-1074 is too coarse, and 3u^2 of the corners.
+Differences<DoubleDouble> precise_differences(PairKind kind, const double* const (&x)[4], double scale) {
+  const bool triangle = kind == PairKind::vertex_face;
+  Differences<DoubleDouble> d{kind, {}, {}, {}, {}};
+  d.q = precise_difference(x[0], x[triangle ? 1 : 2], scale);
+  d.a = triangle ? precise_difference(x[2], x[1], scale) : precise_difference(x[0], x[1], scale);
+  d.b = triangle ? precise_difference(x[3], x[1], scale) : precise_difference(x[3], x[2], scale);
+  return d;
+}
+
+double largest_component(PairKind kind, const double* const (&x)[4]) {
+  const int side = kind == PairKind::vertex_face ? 1 : 2;
+  double r = 0;
+  for (int i = 0; i < side; ++i)
+    for (int j = side; j < 4; ++j)
+      for (int a = 0; a < 3; ++a) r = std::max(r, std::fabs(x[i][a] - x[j][a]));
+  return r;
+}
+
+double largest_corner(const Differences<double>& d) {
+  double r = 0;
+  for (int k = 0; k < d.corners(); ++k) r = std::max(r, dot(d.corner[k], d.corner[k]));
+  return std::sqrt(r);
+}
+
+// U and V to multiples of 2^-52, which moves the point by no more than u |a| + 2u |b|.
+struct Foot {
+  double U, V;
 };
+Foot rounded(PairKind kind, double U, double V) {
+  const Foot r{std::clamp((1 + U) - 1, 0.0, 1.0), std::clamp((1 + V) - 1, 0.0, 1.0)};
+  return kind == PairKind::vertex_face ? Foot{r.U, std::min(r.V, 1 - r.U)} : r;
+}
 
-class Search {
- public:
-  Search(PairKind kind, const double* const (&x)[4]) : kind_(kind), d_(differences(kind, x, 1)) {
-    const double size = largest_component(d_);
-    const double unit = size > 0 ? std::ldexp(1.0, std::max(std::ilogb(size), -1021)) : 1;
-    d_ = differences(kind, x, 1 / unit);
-    d_.unit = unit;
-    const int ends[2][6] = {{1, 2, 2, 3, 3, 1}, {0, 1, 2, 3, 0, 0}};
-    const int(&e)[6] = ends[kind == PairKind::edge_edge];
-    for (int i = 0; i < 3; ++i) edges_[i] = difference(x[e[2 * i + 1]], x[e[2 * i]], 1 / unit);
-  }
+void put_weights(PairKind kind, const Foot& f, double (&w)[4]) {
+  const bool triangle = kind == PairKind::vertex_face;
+  w[0] = triangle ? 1 : 1 - f.U, w[1] = triangle ? -(1 - f.U - f.V) : f.U;
+  w[2] = triangle ? -f.U : -(1 - f.V), w[3] = -f.V;
+  for (double& x : w) x += 0.0;  // no -0
+}
 
-  ClosestPoints solve() {
-    if (kind_ == PairKind::vertex_face)
-      triangle();
-    else
-      edges();
-    ClosestPoints r{{}, std::sqrt(best_.ww) * d_.unit, 0};
-    for (int i = 0; i < 4; ++i) r.weights[i] = best_.weights[i] + 0.0;  // no -0
-    r.lower = std::max(lower_bound(best_.w), lower_bound(normal_)) * d_.unit - 0x1p-1074;
-    return r;
-  }
+void put_direction(const Vec& n, double (&direction)[3]) {
+  for (int i = 0; i < 3; ++i) direction[i] = n[i] + 0.0;
+}
 
- private:
-  // The difference of the points that the weights stand for: sum of first[i] second[j] c_ij.
-  Vec at(const double (&weights)[4]) const {
-    Vec w{};
-    for (int k = 0; k < d_.count; ++k)
-      w = w + (d_.count == 3 ? -weights[1 + k] : weights[k / 2] * -weights[2 + k % 2]) * d_.c[k];
-    return w;
-  }
-  void offer(double a, double b, double c, double d) {
-    Candidate here{{a, b, c, d}, {}, 0};
-    here.w = at(here.weights);
-    here.ww = dot(here.w, here.w);
-    if (!found_ || here.ww < best_.ww) best_ = here;
-    found_ = true;
-  }
+// Convexly, from the corners: each is off by u of its size; with a triangle's exact weights the products and
+// two sums add 3u, with a square's two rounds of a product and a sum 4u: below 5u rho in all.
+Vec point_at(const Differences<double>& d, const Foot& f) {
+  const Vec(&c)[4] = d.corner;
+  if (d.kind == PairKind::vertex_face) return ((1 - f.U - f.V) * c[0] + f.U * c[1]) + f.V * c[2];
+  const Vec first = (1 - f.V) * c[0] + f.V * c[1], second = (1 - f.V) * c[2] + f.V * c[3];
+  return (1 - f.U) * first + f.U * second;
+}
 
-  // The share s of the way along `edge` at which c0 + s (c1 - c0) is closest to the origin; c1 - c0 = sign
-  // edge.
-  static double along(const Vec& c0, const Vec& edge, double sign) {
-    const double ee = dot(edge, edge);
-    return ee > 0 ? std::clamp(-sign * dot(c0, edge) / ee, 0.0, 1.0) : 0;
-  }
-
-  void triangle() {
-    for (int i = 0; i < 3; ++i) {  // from corner i to corner i + 1 the difference falls by the edge
-      const double s = along(d_.c[i], edges_[i], -1);
-      double w[3] = {0, 0, 0};
-      w[i] = 1 - s, w[(i + 1) % 3] = s;
-      offer(1, -w[0], -w[1], -w[2]);
-    }
-    const Vec q = d_.c[0], a = edges_[0], b = -1 * edges_[2], n = cross(a, b);
-    const double nn = dot(n, n), u = dot(cross(q, b), n), v = dot(cross(a, q), n);
-    if (!(nn > 0 && u > 0 && v > 0 && u + v < nn)) return;
-    normal_ = dot(n, q) < 0 ? -1 * n : n;
-    const double fu = u / nn, fv = v / nn;
-    offer(1, -std::max(0.0, 1 - fu - fv), -fu, -fv);
-  }
-
-  void edges() {
-    for (int i = 0; i < 2; ++i) {
-      // End i of edge a against edge b: the difference falls along b; end i of b against a: it grows.
-      const double t = along(d_.c[2 * i], edges_[1], -1), s = along(d_.c[i], edges_[0], 1);
-      offer(i == 0, i == 1, -(1 - t), -t);
-      offer(1 - s, s, -(i == 0), -(i == 1));
-    }
-    const Vec q = -1 * d_.c[0], a = edges_[0], b = edges_[1], n = cross(a, b);
-    const double nn = dot(n, n), u = dot(cross(q, b), n), v = dot(cross(q, a), n);
-    if (!(nn > 0 && u > 0 && v > 0 && u < nn && v < nn)) return;
-    normal_ = dot(n, q) > 0 ? -1 * n : n;
-    const double fu = u / nn, fv = v / nn;
-    offer(1 - fu, fu, -(1 - fv), -fv);
-  }
-
-  // For any direction n the polygon of differences, hence the distance, stays beyond min_k n.c_k / |n|. Each
-  // product errs by 3u |n||c_k|, its c_k by u |c_k|: below 5u |n| rho with rho = max |c_k| and second order;
-  // the norm and the quotient by 4u of the result, itself below rho: 16u rho = 2^-49 rho covers all, with
-  // |n| brought into [1, 4) so that nothing but 2^-1000 is lost to underflow.
-  double lower_bound(Vec n) const {
-    const double size = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
-    if (!(size > 0x1p-1000)) return -INFINITY;
-    n = std::ldexp(1.0, -std::ilogb(size)) * n;
-    double least = INFINITY, rho2 = 0;
-    for (int k = 0; k < d_.count; ++k) {
-      least = std::min(least, dot(n, d_.c[k]));
-      rho2 = std::max(rho2, dot(d_.c[k], d_.c[k]));
-    }
-    return least / std::sqrt(dot(n, n)) - (0x1p-49 * std::sqrt(rho2) + 0x1p-1000);
-  }
-
-  PairKind kind_;
-  Differences d_;
-  Vec edges_[3];
-  Vec normal_{};  // towards the differences, where the closest point is inside
-  Candidate best_{};
-  bool found_ = false;
+// In units of the pair. A point's length is off by 5u rho and, with the square root, 2.5u of itself. A
+// margin: the products with a corner by 4u |n| rho, its own u included, the length of n and the quotient
+// by 3.5u of the result. Both stay below 8u rho, second order included; `blur` is what else the differences
+// are off by.
+struct Bounds {
+  double distance, lower, upper;
 };
+constexpr double kRounding = 0x1p-50, kWidest = 0x1.8p-48;  // 8u, 48u
+
+// In doubles; false: they do not tell, be it for a tie, for a primitive that is too thin, or as the pair may
+// touch.
+bool look(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
+  const Plane<double> plane(d);
+  Nearest<double> nearest;
+  nearest.inside = plane.resolved && foot_on_plane(d, plane, nearest);
+  if (nearest.inside) {
+    const Vec n = plane.normal();
+    nearest.direction = dot(n, d.q) < 0 ? -1 * n : n;
+  } else {
+    nearest = nearest_on_sides(d);
+  }
+  const double rho = largest_corner(d) * (1 + 0x1p-50), error = kRounding * rho + 2 * blur;
+  double most = margin(d, nearest.direction);
+  const Foot foot = rounded(d.kind, nearest.U, nearest.V);
+  const Vec w = point_at(d, foot);
+  bounds.distance = std::sqrt(dot(w, w));
+  bounds.upper = bounds.distance + error;
+  if (plane.resolved && !nearest.inside && bounds.upper - (most - error) > kWidest * rho) {
+    const Vec n = plane.normal(), towards = dot(n, d.q) < 0 ? -1 * n : n;
+    if (const double across = margin(d, towards); across > most) most = across, nearest.direction = towards;
+  }
+  bounds.lower = most - error;
+  put_weights(d.kind, foot, r.weights);
+  put_direction(unit(nearest.direction), r.direction);
+  r.square = nearest.inside;
+  return bounds.lower > 0 && bounds.upper - bounds.lower <= kWidest * rho;
+}
+
+VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
+  const DoubleDouble nn = dot(n, n);
+  return nn.hi > 0x1p-400 ? (DoubleDouble(1.0) / sqrt(nn)) * n : VecOf<DoubleDouble>{};
+}
+
+// In double-doubles all features are found, and directions made square to them, within 2^-98 rho: a direction
+// that is off by that relative to the distance costs the far ends of a feature 2^-98 rho^2 / distance of
+// their margin, less than 4u rho where the distance is more than 2^-47 rho; where it is less, 0 is close
+// enough a bound.
+void look_closer(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
+                 Bounds& bounds) {
+  using V = VecOf<DoubleDouble>;
+  const Plane<DoubleDouble> plane(d);
+  const auto towards = [&](const V& n) { return dot(n, d.q).hi < 0 ? DoubleDouble(-1.0) * n : n; };
+  Nearest<DoubleDouble> nearest;
+  nearest.inside = plane.resolved && foot_on_plane(d, plane, nearest);
+  if (!nearest.inside) nearest = nearest_on_sides(d);
+  if (nearest.inside) nearest.direction = towards(plane.normal());
+  DoubleDouble most = margin(d, nearest.direction);
+  if (plane.resolved && !nearest.inside) {
+    const V n = towards(plane.normal());
+    if (const DoubleDouble across = margin(d, n); across > most) most = across, nearest.direction = n;
+  }
+  const Foot foot = rounded(d.kind, nearest.U.hi, nearest.V.hi);
+  const V w = (d.q - DoubleDouble(foot.U) * d.a) - DoubleDouble(foot.V) * d.b;
+  // Products with a corner and the quotient by its length err by less than 80 u^2, a point by less than 60
+  // u^2 of rho.
+  const double error = 0x1p-98 * rho + 2 * blur;
+  bounds.distance = sqrt(dot(w, w)).hi;
+  bounds.upper = bounds.distance * (1 + 0x1p-50) + error;
+  bounds.lower = std::max(most.hi * (1 - 0x1p-51) - error, 0.0);
+  put_weights(d.kind, foot, r.weights);
+  const V n = unit(nearest.direction);
+  put_direction({{n[0].hi, n[1].hi, n[2].hi}}, r.direction);
+  r.square = nearest.inside;
+}
+
+ClosestPoints in_model_length(ClosestPoints r, const Bounds& b, double scale) {
+  const double unit = 1 / scale, last = 0x1p-1074;
+  r.distance = b.distance * unit, r.lower = std::max(b.lower * unit - last, 0.0),
+  r.upper = b.upper * unit + last;
+  return r;
+}
+
+ClosestPoints at_one_place(PairKind kind) {
+  ClosestPoints r{};
+  put_weights(kind, {0, 0}, r.weights);
+  r.upper = 0x1p-1074;
+  return r;
+}
 
 }  // namespace
 
-ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]) { return Search(kind, x).solve(); }
+ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]) {
+  const double largest = largest_component(kind, x), scale = inverse_unit(largest);
+  if (largest == 0) return at_one_place(kind);
+  ClosestPoints r;
+  Bounds bounds;
+  const Differences<double> d = differences(kind, x, scale);
+  if (!look(d, 0, r, bounds)) {
+    Differences<DoubleDouble> precise = precise_differences(kind, x, scale);
+    precise.set_corners();
+    look_closer(precise, largest_corner(d), 0, r, bounds);
+  }
+  return in_model_length(r, bounds, scale);
+}
+
+ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
+                             double t) {
+  const double largest = std::max(largest_component(kind, x0), largest_component(kind, x1));
+  if (largest == 0) return at_one_place(kind);
+  const double scale = inverse_unit(largest);
+  Differences<DoubleDouble> precise = precise_differences(kind, x0, scale);
+  const Differences<DoubleDouble> end = precise_differences(kind, x1, scale);
+  const auto move = [&](VecOf<DoubleDouble>& v, const VecOf<DoubleDouble>& to) {
+    v = v + DoubleDouble(t) * (to - v);
+  };
+  move(precise.q, end.q), move(precise.a, end.a), move(precise.b, end.b);
+  precise.set_corners();
+  const auto near = [](const VecOf<DoubleDouble>& v) { return Vec{{v[0].hi, v[1].hi, v[2].hi}}; };
+  Differences<double> d{kind, near(precise.q), near(precise.a), near(precise.b), {}};
+  for (int k = 0; k < d.corners(); ++k) d.corner[k] = near(precise.corner[k]);
+  // Mixing q, a and b and taking their sums errs by less than 100 u^2 of the sizes at both ends, at most 2^3
+  // here.
+  constexpr double kBlur = 0x1p-96;
+  ClosestPoints r;
+  Bounds bounds;
+  if (!look(d, kBlur, r, bounds)) look_closer(precise, largest_corner(d), kBlur, r, bounds);
+  return in_model_length(r, bounds, scale);
+}
 
 }  // namespace onset

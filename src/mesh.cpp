@@ -287,7 +287,9 @@ void Mesh::set_thickness(const std::vector<double>& thickness) {
   for (std::size_t v = 0; v < thickness.size(); ++v)
     if (!(thickness[v] >= 0) || !std::isfinite(thickness[v]))
       reject("thickness", std::ptrdiff_t(v), std::to_string(thickness[v]) + " is not a finite number >= 0");
-  change([&](MeshData& data) { data.thickness = thickness; });
+  // All zero is none.
+  const bool any = std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0; });
+  change([&](MeshData& data) { data.thickness = any ? thickness : std::vector<double>(); });
 }
 
 }  // namespace onset

@@ -19,12 +19,13 @@ struct ClosePair : Pair {
   // point-edge, point-triangle or edge-edge). The gradient of the distance by vertex i is weights[i] times
   // the direction of that sum.
   std::array<double, 4> weights{};
-  // The length of that sum. Weights are feasible, so it is never shorter than the exact distance by more than
-  // rounding (2^-50 of the pair's size, about), and longer only where edges are nearly parallel.
+  // The length of that sum: within 2^-47 of the pair's largest corner difference of the exact distance, and
+  // as weights are feasible, shorter by no more than its own rounding.
   double distance = 0;
   // What the pair has to keep: Options::min_separation plus thickness, times sqrt(3) in the maximum norm.
   double separation = 0;
-  // Certified lower bound of the exact distance less `separation`; 0 where there is none to certify.
+  // Certified lower bound of the exact distance less `separation`, within 2^-47 of the pair's largest corner
+  // difference of that; 0 where there is none to certify.
   double gap = 0;
 };
 
@@ -42,9 +43,10 @@ struct ClosePairs {
 };
 
 // Every pair whose exact distance at x (#V x 3) is below d_hat (model length, > 0) plus its separation. A
-// pair beyond that by no more than rounding may be listed as well; none within is left out. Pairs that share
-// a vertex are no pairs. Throws std::invalid_argument for a wrong number of rows, options or d_hat out of
-// range. Safe to call concurrently on one Mesh.
+// pair beyond that by no more than 2^-46 of its largest corner difference, or of d_hat plus the separation,
+// may be listed as well; none within is left out. Pairs that share a vertex are no pairs. Throws
+// std::invalid_argument for a wrong number of rows, options or d_hat out of range. Safe to call concurrently
+// on one Mesh.
 ONSET_API ClosePairs close_pairs(const Mesh& mesh, const Positions& x, double d_hat,
                                  const Options& options = {});
 

@@ -87,7 +87,8 @@ class ONSET_API Mesh {
   void set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs);
 
   // Vertices that are at one place, exactly, at both ends of a motion count as one in it, as the copies of a seam's
-  // vertices do: pairs with one of them on each side are left out as if they shared a vertex. Until set: off.
+  // vertices do: pairs with one of them on each side are left out as if they shared a vertex. Distances at one time
+  // (close_pairs) are those of a motion that stays there. Until set: off.
   void set_weld(bool on);
 
   // One value a body (num_bodies() of them) as one value a vertex, for the functions that take these.

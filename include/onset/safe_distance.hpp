@@ -36,7 +36,10 @@ ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 // `free` with step < 1 means that the bound ended it, not a pair. Where a budget of `options` is spent, the
 // step is that of safe_distances, which looks at no pair: > 0 unless a listed one has no gap. Throws as
 // safe_distances.
+//
+// keep in [0, 1): every pair, listed or not, keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as in
+// LineSearch, so that the next step is > 0.
 ONSET_API StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                                          const ClosePairs& close, const Options& options = {});
+                                          const ClosePairs& close, const Options& options = {}, double keep = 0.2);
 
 }  // namespace onset

@@ -191,6 +191,45 @@ TEST_CASE("threads, kernels and broad phases give the same distance set", "[dete
   }
 }
 
+namespace {
+
+// A vertex and a face, and nothing else.
+ClosePairs close_pairs_of(const std::array<std::array<double, 3>, 4>& points, double d_hat) {
+  Eigen::MatrixXd x(4, 3);
+  for (int i = 0; i < 4; ++i)
+    for (int a = 0; a < 3; ++a) x(i, a) = points[std::size_t(i)][std::size_t(a)];
+  return close_pairs(Mesh(4, Eigen::MatrixXi(0, 2), Eigen::RowVector3i(1, 2, 3)), x, d_hat);
+}
+
+}  // namespace
+
+TEST_CASE("a vertex above a corner is not listed for a foot that ties with another", "[unit]") {
+  const std::array<std::array<double, 3>, 4> x{
+      {{0, 0, 0x1.4p-8}, {0, 0, 0}, {1, 0, 0x1.4p-27}, {0, 1, -1}}};  // the distance is 0x1.3ffffffffffffp-8
+  CHECK(close_pairs_of(x, 0x1.3fffdbffff5cap-8).size() == 0);
+  CHECK(close_pairs_of(x, 0x1.3ffffffffff00p-8).size() == 0);
+  const ClosePairs listed = close_pairs_of(x, 0x1.4p-8);
+  REQUIRE(listed.size() == 1);
+  CHECK(listed.pairs[0].gap >= 0x1.3ffffffffff80p-8);
+}
+
+TEST_CASE("a vertex beside a needle has its own distance, and may move", "[unit]") {
+  const std::array<std::array<double, 3>, 4> x{
+      {{-0x1.1a1904b081edep-8, -0x1.11a7dcb91c158p-3, -0x1.15336b771baa1p-3},
+       {0, 0, 0},
+       {-0x1.72b3e87a83dcp-6, -0x1.679bf272af91dp-1, -0x1.6c44900134754p-1},
+       {-0x1.cd39571109748p-9, -0x1.bf6be4f6a653p-4, -0x1.c537bb7bd54c9p-4}}};
+  const ClosePairs close = close_pairs_of(x, 1e-6);
+  REQUIRE(close.size() == 1);
+  CHECK(std::fabs(close.pairs[0].distance - 6.99102e-14) < 1e-15);
+  CHECK(std::fabs(close.pairs[0].gap - 6.99102e-14) < 1e-15);
+  Eigen::MatrixXd positions(4, 3);
+  for (int i = 0; i < 4; ++i)
+    for (int a = 0; a < 3; ++a) positions(i, a) = x[std::size_t(i)][std::size_t(a)];
+  const Mesh mesh(4, Eigen::MatrixXi(0, 2), Eigen::RowVector3i(1, 2, 3));
+  for (const double r : safe_distances(mesh, positions, close)) CHECK(r > 3e-14);
+}
+
 TEST_CASE("distance sets asked for wrongly are rejected, bad positions are an outcome", "[unit]") {
   const NamedScene named = some_scenes()[3];
   const Mesh mesh = named.mesh();
