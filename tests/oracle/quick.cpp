@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/oracle/geometry.hpp"
+#include "tests/oracle/exact_points.hpp"
 
 namespace onset::oracle {
 namespace {
@@ -57,6 +57,16 @@ bool surely_apart(const scenes::Query& query, double until, double moved) {
   const double bound = 0x1p-46 * q * a * b + 37 * moved * d * d;
   const auto [least, most] = std::minmax_element(c, c + 4);
   return *least > bound || *most < -bound;
+}
+
+// The bound is that of a determinant above.
+int orientation(PairKind kind, const std::array<Point, 4>& x) {
+  const auto r = relative(kind, std::array<Vec, 4>(x));
+  const double f = determinant(r.q, r.a, r.b);
+  const double bound = 0x1p-46 * largest(r.q, r.q) * largest(r.a, r.a) * largest(r.b, r.b);
+  if (bound > 0x1p-900 && std::fabs(f) > bound) return f > 0 ? 1 : -1;
+  const auto e = relative(kind, exact(x, 1));
+  return sign<Rational>(dot(e.q, cross(e.a, e.b)));
 }
 
 }  // namespace onset::oracle

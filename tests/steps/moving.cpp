@@ -21,12 +21,17 @@ static bool comes_closer(const PairTruth& pair, double step, Norm norm) {
   return closer.collides && closer.toi_hi <= step;
 }
 
+// Beyond a separation d > 0 by no more than 2^-44 of its size a pair may be taken to start within it.
+static double slack(const Query& motion, double d) { return d > 0 ? 0x1p-44 * oracle::extent(motion) : 0; }
+
 static std::string broken_by_contact(const Asked& asked, const PairTruth& pair, double step) {
+  const Norm norm = asked.options.norm;
+  const double d = pair.separation;
   if (step == 0) return {};
   if (pair.touching)
     return asked.options.touching_may_pass_through ? "" : at("moves while in touch", pair.key, pair.motion);
-  if (pair.initial())
-    return comes_closer(pair, step, asked.options.norm) ? at("comes closer", pair.key, pair.motion) : "";
+  if (oracle::compare_distance(pair.motion, 0, d + slack(pair.motion, d), norm) <= 0)
+    return comes_closer(pair, step, norm) ? at("comes closer", pair.key, pair.motion) : "";
   const bool before =
       pair.within.toi_hi == pair.within.toi_lo ? step < pair.within.toi_lo : step <= pair.within.toi_lo;
   return before ? std::string() : at("steps into a contact", pair.key, pair.motion);
@@ -42,7 +47,7 @@ static const char* broken_by_storing(const Query& motion, double d, double step,
   for (oracle::Rounding how : oracle::kRoundings) {
     const auto end = oracle::stored(how, motion, step);
     if (const char* broken = oracle::broken_on_the_way(motion, step, end); *broken) return broken;
-    if (d > 0 && starts_beyond(motion, d, rounding, norm) &&
+    if (d > 0 && starts_beyond(motion, d, std::max(rounding, slack(motion, d) / 2), norm) &&
         oracle::compare_distance_at_rest(motion.kind, end, d, norm) <= 0)
       return "is stored within the separation";
   }
@@ -65,15 +70,14 @@ std::string broken_by_moving(const Asked& asked, const SceneTruth& truth, double
   return broken;
 }
 
-// With a separation, up to 2^-44 of the pair's size may count as none.
 std::string stuck(const Asked& asked, const SceneTruth& truth, const StepResult& r) {
   if (r.step > 0 || truth.initial()) return {};
   if (!(r.rounding >= 0 && r.rounding < INFINITY)) return "a step of 0 without a rounding";
   bool near = false;
   for_all_pairs(asked.mesh, [&](PairKind kind, int, int, const std::array<int, 4>& v) {
     const Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
-    const double d = asked.separation(kind, v), slack = d > 0 ? 0x1p-44 * oracle::extent(motion) : 0;
-    near |= !starts_beyond(motion, d, std::max(r.rounding, slack / 2), asked.options.norm);
+    const double d = asked.separation(kind, v);
+    near |= !starts_beyond(motion, d, std::max(r.rounding, slack(motion, d) / 2), asked.options.norm);
   });
   return near ? "" : "a step of 0 though every gap is more than twice the rounding";
 }
