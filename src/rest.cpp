@@ -1,8 +1,15 @@
 #include "src/rest.hpp"
 
+#include <utility>
+
 #include "src/scene.hpp"
 
 namespace onset {
+
+// Leaves the rows of static vertices to the next call on the mesh.
+Rest::~Rest() {
+  if (motion.rows_last) motion.fixed->give_back(motion.axes, std::move(motion.x));
+}
 
 void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& budget) {
   if (motion.status != Outcome::free || budget.spent()) return;

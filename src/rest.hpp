@@ -16,6 +16,9 @@ struct Rest {
   std::unique_ptr<BroadPhase> broad;
 
   Rest(const Mesh& mesh, const Positions& x) : motion(make_motion(mesh.data(), x, x)) {}
+  Rest(const Rest&) = delete;
+  Rest& operator=(const Rest&) = delete;
+  ~Rest();
 
   // The pairs of a step that come within Options::min_separation and their thickness, or kEdgeFace with a common point.
   enum class Pairs { within_separation, edge_face };
