@@ -186,6 +186,57 @@ TEST_CASE("edges and faces that touch up to the last bits", "[oracle][property]"
   CHECK(counts[1] > oracle::fuzz(1000));
 }
 
+// In their plane exactly, in integers whose products round: the directions that could separate them are off by rounding.
+TEST_CASE("edges that reach the side of a face in its plane", "[oracle][property]") {
+  Random random(75 + oracle::fuzz_seed());
+  int touching = 0;
+  for (int i = 0; i < oracle::fuzz(10000); ++i) {
+    const int bits = scenes::integer(random, 4, 40);
+    const Point v = scenes::grid_point(random, bits), w = scenes::grid_point(random, bits), f0 = scenes::grid_point(random, bits + 8);
+    const auto at = [&](double s, double t) {
+      return Point{f0[0] + s * v[0] + t * w[0], f0[1] + s * v[1] + t * w[1], f0[2] + s * v[2] + t * w[2]};
+    };
+    const double s = scenes::integer(random, -1, 9), beyond = scenes::integer(random, 0, 5);
+    const Points x{at(s, 0), at(scenes::integer(random, -9, 9), -beyond), f0, at(8, 0), at(scenes::integer(random, -9, 9), 7)};
+    const Kind expected = truth<Rational>(x);
+    touching += expected == kTouching;
+    INFO(text(x));
+    REQUIRE((answer(x) == expected));
+  }
+  CHECK(touching > oracle::fuzz(2000));
+}
+
+// Inner products that underflow or overflow, where the whole does not.
+TEST_CASE("edges and faces of very different sizes", "[oracle][property]") {
+  Random random(76 + oracle::fuzz_seed());
+  int counts[4] = {};
+  for (int i = 0; i < oracle::fuzz(6000); ++i) {
+    Points x = grid_points(random, 3);
+    const int of_face = i % 2 == 0 ? scenes::integer(random, -545, -525) : scenes::integer(random, 507, 511);
+    const int of_edge = scenes::integer(random, -1074, 1000), shift = scenes::coin(random) ? 0 : of_face;
+    for (std::size_t k = 0; k < 5; ++k)
+      for (double& c : x[k]) c = std::ldexp(c, k < 2 ? of_edge : of_face);
+    for (std::size_t k = 0; k < 2; ++k)
+      for (double& c : x[k]) c += shift == 0 ? 0 : std::ldexp(scenes::integer(random, -3, 3), shift);
+    if (scenes::coin(random)) x[2] = {0, 0, 0};
+    if (scenes::coin(random)) x[1] = {-x[0][0], -x[0][1], -x[0][2]};
+    const Kind expected = truth<Rational>(x);
+    ++counts[expected ? 1 + int(*expected) : 0];
+    INFO(text(x));
+    REQUIRE((answer(x) == expected));
+  }
+  for (const int n : counts) CHECK(n > 0);
+}
+
+// One component of the normal is infinite, and not the one that decides.
+TEST_CASE("an edge through a face whose normal overflows", "[unit]") {
+  const double big = 0x1p509, small = 0x1p-10;
+  const Points x{{{small, 3 * small, 14 * small}, {small, -3 * small, 14 * small}, {0, 0, 0},
+                  {-3 * big, 7 * big, 7 * big}, {4 * big, -7 * big, 7 * big}}};
+  CHECK((truth<Rational>(x) == kCrossing));
+  check_all_orders(x, kCrossing);
+}
+
 TEST_CASE("edges and faces whose coordinates span all binary orders", "[oracle][property]") {
   Random random(72 + oracle::fuzz_seed());
   int meeting = 0;
