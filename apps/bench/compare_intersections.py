@@ -40,6 +40,7 @@ def of_frame(name, onset, end, mesh, x, repeats):
 def main():
     parser = scene_parser(__doc__)
     parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--threads", nargs="+", help="not looked at: for whoever passes on the arguments of compare_ipctk.py")
     options = parser.parse_args()
     ipctk.set_num_threads(1)
     print(f"ipctk {ipctk.__version__}; CPU ms, one thread, {options.repeats} rounds: median [least, most]\n")
