@@ -123,13 +123,17 @@ void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
   }
 }
 
+// A point is an edge whose two vertices are the same.
+static std::string describe_edge(int edge, int v, int w) {
+  return v == w ? format("point %d (edge %d)", v, edge) : format("edge %d (vertices %d %d)", edge, v, w);
+}
+
 std::string describe(const onset::Pair& pair) {
   if (pair.a < 0) return "none";
-  const bool vf = pair.kind == onset::PairKind::vertex_face;
   const auto& v = pair.vertices;
-  return vf ? format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3])
-            : format("edge %d (vertices %d %d) and edge %d (vertices %d %d)", pair.a, v[0], v[1], pair.b,
-                     v[2], v[3]);
+  if (pair.kind == onset::PairKind::vertex_face)
+    return format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3]);
+  return describe_edge(pair.a, v[0], v[1]) + " and " + describe_edge(pair.b, v[2], v[3]);
 }
 
 std::string describe(const onset::PairCounts& c) {

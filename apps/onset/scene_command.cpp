@@ -16,9 +16,9 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
   };
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command = app.add_subcommand(name, help);
-  command->add_option("A", inputs->a, "Mesh at the start of the step: .ply, .obj or .off, triangles")
+  command->add_option("A", inputs->a, kMeshHelp)
       ->required();
-  command->add_option("B", inputs->b, "The same mesh at its end: the same faces in the same order")
+  command->add_option("B", inputs->b, kEndHelp)
       ->required();
   add_common_options(*command, *inputs, csv_columns);
   add_body_options(*command, *inputs);
@@ -28,6 +28,7 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
       Scene scene = read_scene(inputs->a, inputs->b);
       set_bodies(*inputs, scene.mesh);
       Outputs outputs(*inputs);
+      for (const std::string& note : scene.notes) outputs.note(note);
       work(scene, options, outputs);
     };
   });
@@ -36,7 +37,10 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
 }
 
 std::string describe_sizes(const onset::Mesh& mesh) {
-  return describe_sizes(mesh.num_vertices(), mesh.num_edges(), mesh.num_faces());
+  const std::ptrdiff_t points = mesh.num_points();
+  std::string text = describe_sizes(mesh.num_vertices(), mesh.num_edges() - points, mesh.num_faces());
+  if (points > 0) text.insert(text.size() - 1, format(", %td points (edges of length 0 behind all others)", points));
+  return text;
 }
 
 }  // namespace app

@@ -11,6 +11,9 @@
 
 namespace app {
 
+inline constexpr char kMeshHelp[] = "Mesh at the start of the step: .ply, .obj, .off or .stl";
+inline constexpr char kEndHelp[] = "The same mesh at its end: the same faces, wires and points in the same order";
+
 using SceneWork = std::function<void(const Scene& scene, const onset::Options& options, Outputs& outputs)>;
 
 // Adds the subcommand with its arguments A and B. Its run reads the scene, opens the outputs, then calls
