@@ -11,8 +11,11 @@ namespace app {
 struct BodyArguments {
   std::string bodies = "one";
   std::vector<int> fixed, rigid;
-  bool all_rigid = false;
+  bool all_rigid = false, weld = false;
 };
+
+// --weld, alone; one of the body options.
+void add_weld(CLI::App& command, bool& weld);
 
 void add_body_options(CLI::App& command, BodyArguments& arguments);
 
