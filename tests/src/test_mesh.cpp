@@ -69,20 +69,20 @@ TEST_CASE("points are vertices of no edge or face, each once, after the edges", 
   Eigen::MatrixXi edges(1, 2), faces(1, 3);
   edges << 3, 4;
   faces << 0, 1, 2;
-  Mesh mesh(8, edges, faces);
+  Mesh mesh(8, complete_edges(edges, faces), faces);
   mesh.set_points({7, 5});
-  CHECK((mesh.num_edges() == 3 && mesh.num_points() == 2));
-  CHECK((mesh.edge(1) == std::array<int, 2>{7, 7} && mesh.edge(2) == std::array<int, 2>{5, 5}));
+  CHECK((mesh.num_edges() == 6 && mesh.num_points() == 2));
+  CHECK((mesh.edge(4) == std::array<int, 2>{7, 7} && mesh.edge(5) == std::array<int, 2>{5, 5}));
   CHECK_THROWS_WITH(mesh.set_points({5, 8}), Catch::Contains("point row 1: vertex 8 is out of range"));
   CHECK_THROWS_WITH(mesh.set_points({-1}), Catch::Contains("point row 0: vertex -1"));
   CHECK_THROWS_WITH(mesh.set_points({5, 6, 5}), Catch::Contains("point row 2: vertex 5 is repeated"));
   CHECK_THROWS_WITH(mesh.set_points({4}), Catch::Contains("row 0: vertex 4 belongs to an edge"));
   CHECK_THROWS_WITH(mesh.set_points({5, 2}), Catch::Contains("row 1: vertex 2 belongs to an edge or a face"));
-  CHECK((mesh.num_edges() == 3 && mesh.edge(1)[0] == 7));
+  CHECK((mesh.num_edges() == 6 && mesh.edge(4)[0] == 7));
   mesh.set_points({6});
-  CHECK((mesh.num_edges() == 2 && mesh.edge(1)[0] == 6 && mesh.plan().edge_edge.pairs == 1));
+  CHECK((mesh.num_edges() == 5 && mesh.edge(4)[0] == 6 && mesh.plan().edge_edge.pairs == 10));
   mesh.set_points({});
-  CHECK((mesh.num_edges() == 1 && mesh.num_points() == 0));
+  CHECK((mesh.num_edges() == 4 && mesh.num_points() == 0));
   edges << 3, 3;
   CHECK_THROWS_WITH(Mesh(8, edges, faces), Catch::Contains("edge row 0: vertex 3 is repeated"));
 }
