@@ -43,7 +43,8 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
   add_weld(command, a.weld);
 }
 
-void set_bodies(const BodyArguments& a, onset::Mesh& mesh) {
+void set_bodies(const BodyArguments& a, Scene& scene) {
+  onset::Mesh& mesh = scene.mesh;
   if (a.bodies == "components") mesh.set_bodies(mesh.components());
   const int count = mesh.num_bodies();
   const std::vector<bool> fixed = flags("--static-body", a.fixed, count);
@@ -51,7 +52,7 @@ void set_bodies(const BodyArguments& a, onset::Mesh& mesh) {
   if (a.all_rigid) rigid.assign(rigid.size(), true);
   if (!a.fixed.empty()) mesh.set_static(mesh.of_bodies(fixed));
   if (a.all_rigid || !a.rigid.empty()) mesh.set_rigid(rigid);
-  if (a.weld) mesh.set_weld(true);
+  if (a.weld) mesh.set_weld(true), scene.welded = true;
 }
 
 }  // namespace app

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <onset/mesh.hpp>
 #include <string>
 #include <vector>
+
+#include "scene.hpp"
 
 namespace app {
 
@@ -20,6 +21,6 @@ void add_weld(CLI::App& command, bool& weld);
 void add_body_options(CLI::App& command, BodyArguments& arguments);
 
 // Throws UsageError for a body that the mesh has not.
-void set_bodies(const BodyArguments& arguments, onset::Mesh& mesh);
+void set_bodies(const BodyArguments& arguments, Scene& scene);
 
 }  // namespace app

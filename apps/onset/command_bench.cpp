@@ -41,7 +41,7 @@ bool is_surface(const onset::Mesh& mesh) {
 
 Scene to_scene(Frames frames) {
   onset::Mesh mesh(frames.x_t0.rows(), frames.faces);
-  return {std::move(mesh), std::move(frames.x_t0), std::move(frames.x_t1), {}};
+  return {std::move(mesh), std::move(frames.x_t0), std::move(frames.x_t1), {}, "", false};
 }
 
 Scene read_refined(const Inputs& inputs, int times) {

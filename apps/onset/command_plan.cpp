@@ -84,7 +84,7 @@ void add_plan(CLI::App& app, Run& run) {
   command->callback([&run, inputs] {
     run = [inputs] {
       Scene scene = read_scene(inputs->a, inputs->b.empty() ? inputs->a : inputs->b);
-      set_bodies(*inputs, scene.mesh);
+      set_bodies(*inputs, scene);
       report(scene, *inputs);
     };
   });

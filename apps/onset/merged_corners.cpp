@@ -1,31 +1,13 @@
 #include "merged_corners.hpp"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 
 #include "error.hpp"
+#include "places.hpp"
 #include "text_lines.hpp"
 
 namespace app {
 namespace {
-
-// For each corner the first one at its place.
-std::vector<Eigen::Index> first_at_place(const Points& x) {
-  std::vector<Eigen::Index> order(std::size_t(x.rows())), first(order.size());
-  std::iota(order.begin(), order.end(), Eigen::Index(0));
-  const auto before = [&](Eigen::Index a, Eigen::Index b) {
-    for (int c = 0; c < 3; ++c)
-      if (x(a, c) != x(b, c)) return x(a, c) < x(b, c);
-    return false;
-  };
-  std::stable_sort(order.begin(), order.end(), before);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && !before(order[i - 1], order[i]);
-    first[std::size_t(order[i])] = same ? first[std::size_t(order[i - 1])] : order[i];
-  }
-  return first;
-}
 
 std::string corner(Eigen::Index v) {
   return "corner " + std::to_string(v % 3) + " of face " + std::to_string(v / 3);

@@ -122,7 +122,7 @@ Scene read_scene(const std::string& path_t0, const std::string& path_t1) {
   const std::string differs = difference(t0, t1);
   if (!differs.empty()) throw InputError(path_t0 + " and " + path_t1 + ": different topology: " + differs);
   note_triangles(t0);
-  return {make_mesh(t0), std::move(t0.positions), std::move(t1.positions), notes(t0, t1)};
+  return {make_mesh(t0), std::move(t0.positions), std::move(t1.positions), notes(t0, t1), path_t0, false};
 }
 
 }  // namespace app

@@ -13,6 +13,8 @@ struct Scene {
   onset::Mesh mesh;  // edges: onset::edges(faces), then the wires that are not among them; points are set
   Points x_t0, x_t1;
   std::vector<std::string> notes;  // how the files were taken, for whoever reads the result
+  std::string path;                // of the first
+  bool welded = false;             // vertices at one place count as one (--weld)
 };
 
 // Throws InputError: what read_mesh throws, and elements (faces, wires, points) that differ, naming the first one.
