@@ -1,6 +1,7 @@
 #include "query_dump.hpp"
 
 #include <cmath>
+
 #include <filesystem>
 #include <fstream>
 
@@ -94,10 +95,11 @@ std::optional<Expectation> read_expectation(const std::string& path) {
     const Json json = Json::parse(in);
     Expectation e;
     e.options = to_options(json.at("options"));
-    for (const Json& q : json.at("queries"))
-      e.answers.push_back({q.at("outcome").get<std::string>(),
-                           q.at("toi").is_null() ? INFINITY : q.at("toi").get<double>(),  // never
+    for (const Json& q : json.at("queries")) {
+      const Json& toi = q.at("toi");  // JSON has no infinity: null
+      e.answers.push_back({q.at("outcome").get<std::string>(), toi.is_null() ? INFINITY : toi.get<double>(),
                            q.at("checks").get<std::int64_t>()});
+    }
     return e;
   } catch (const Json::exception& error) {
     throw InputError(name + ": " + error.what());
