@@ -1,25 +1,13 @@
 #include "narrowphase/closest_points.hpp"
 
-#include "narrowphase/nearest.hpp"
+#include "narrowphase/precise_differences.hpp"
 
 namespace onset {
 namespace {
 
-// In units of a power of two, so that the largest component of a corner difference is in [1, 2) or all are 0
-// (of subnormal ones it is in [2^-53, 2)).
-double inverse_unit(double largest) {
-  return largest > 0 ? std::ldexp(1.0, -std::max(std::ilogb(largest), -1021)) : 1;
-}
-
 Vec difference(const double* p, const double* q, double scale) {
   return {{(p[0] - q[0]) * scale, (p[1] - q[1]) * scale, (p[2] - q[2]) * scale}};
 }
-VecOf<DoubleDouble> precise_difference(const double* p, const double* q, double scale) {
-  VecOf<DoubleDouble> r;
-  for (int i = 0; i < 3; ++i) r[i] = scaled(two_difference(p[i], q[i]), scale);
-  return r;
-}
-
 // One rounding each.
 Differences<double> differences(PairKind kind, const double* const (&x)[4], double scale) {
   const bool triangle = kind == PairKind::vertex_face;
@@ -31,25 +19,6 @@ Differences<double> differences(PairKind kind, const double* const (&x)[4], doub
   d.b = triangle ? difference(x[3], x[1], scale) : difference(x[3], x[2], scale);
   return d;
 }
-// None but where 2^-1074 is too coarse, and 3u^2 of the corners.
-Differences<DoubleDouble> precise_differences(PairKind kind, const double* const (&x)[4], double scale) {
-  const bool triangle = kind == PairKind::vertex_face;
-  Differences<DoubleDouble> d{kind, {}, {}, {}, {}};
-  d.q = precise_difference(x[0], x[triangle ? 1 : 2], scale);
-  d.a = triangle ? precise_difference(x[2], x[1], scale) : precise_difference(x[0], x[1], scale);
-  d.b = triangle ? precise_difference(x[3], x[1], scale) : precise_difference(x[3], x[2], scale);
-  return d;
-}
-
-double largest_component(PairKind kind, const double* const (&x)[4]) {
-  const int side = kind == PairKind::vertex_face ? 1 : 2;
-  double r = 0;
-  for (int i = 0; i < side; ++i)
-    for (int j = side; j < 4; ++j)
-      for (int a = 0; a < 3; ++a) r = std::max(r, std::fabs(x[i][a] - x[j][a]));
-  return r;
-}
-
 double largest_corner(const Differences<double>& d) {
   double r = 0;
   for (int k = 0; k < d.corners(); ++k) r = std::max(r, dot(d.corner[k], d.corner[k]));
@@ -156,7 +125,7 @@ void look_closer(const Differences<DoubleDouble>& d, double rho, double blur, Cl
   bounds.lower = std::max(most.hi * (1 - 0x1p-51) - error, 0.0);
   put_weights(d.kind, foot, r.weights);
   const V n = unit(nearest.direction);
-  put_direction({{n[0].hi, n[1].hi, n[2].hi}}, r.direction);
+  put_direction(rounded(n), r.direction);
   r.square = nearest.inside;
 }
 
@@ -177,41 +146,32 @@ ClosestPoints at_one_place(PairKind kind) {
 }  // namespace
 
 ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]) {
-  const double largest = largest_component(kind, x), scale = inverse_unit(largest);
+  const double largest = largest_corner_component(kind, x), scale = inverse_unit(largest);
   if (largest == 0) return at_one_place(kind);
   ClosestPoints r;
   Bounds bounds;
   const Differences<double> d = differences(kind, x, scale);
-  if (!look(d, 0, r, bounds)) {
-    Differences<DoubleDouble> precise = precise_differences(kind, x, scale);
-    precise.set_corners();
-    look_closer(precise, largest_corner(d), 0, r, bounds);
-  }
+  if (!look(d, 0, r, bounds))
+    look_closer(precise_differences(kind, x, scale), largest_corner(d), 0, r, bounds);
   return in_model_length(r, bounds, scale);
+}
+
+ClosestPoints closest_points(const Differences<DoubleDouble>& precise, double blur) {
+  Differences<double> d{precise.kind, rounded(precise.q), rounded(precise.a), rounded(precise.b), {}};
+  for (int k = 0; k < d.corners(); ++k) d.corner[k] = rounded(precise.corner[k]);
+  ClosestPoints r;
+  Bounds bounds;
+  if (!look(d, blur, r, bounds)) look_closer(precise, largest_corner(d), blur, r, bounds);
+  r.distance = bounds.distance, r.lower = bounds.lower, r.upper = bounds.upper;
+  return r;
 }
 
 ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
                              double t) {
-  const double largest = std::max(largest_component(kind, x0), largest_component(kind, x1));
-  if (largest == 0) return at_one_place(kind);
-  const double scale = inverse_unit(largest);
-  Differences<DoubleDouble> precise = precise_differences(kind, x0, scale);
-  const Differences<DoubleDouble> end = precise_differences(kind, x1, scale);
-  const auto move = [&](VecOf<DoubleDouble>& v, const VecOf<DoubleDouble>& to) {
-    v = v + DoubleDouble(t) * (to - v);
-  };
-  move(precise.q, end.q), move(precise.a, end.a), move(precise.b, end.b);
-  precise.set_corners();
-  const auto near = [](const VecOf<DoubleDouble>& v) { return Vec{{v[0].hi, v[1].hi, v[2].hi}}; };
-  Differences<double> d{kind, near(precise.q), near(precise.a), near(precise.b), {}};
-  for (int k = 0; k < d.corners(); ++k) d.corner[k] = near(precise.corner[k]);
-  // Mixing q, a and b and taking their sums errs by less than 100 u^2 of the sizes at both ends, at most 2^3
-  // here.
-  constexpr double kBlur = 0x1p-96;
-  ClosestPoints r;
-  Bounds bounds;
-  if (!look(d, kBlur, r, bounds)) look_closer(precise, largest_corner(d), kBlur, r, bounds);
-  return in_model_length(r, bounds, scale);
+  const PreciseMotion motion(kind, x0, x1);
+  if (motion.size == 0) return at_one_place(kind);
+  const ClosestPoints r = closest_points(motion.at(t), t == 0 ? 0 : PreciseMotion::kBlur);
+  return in_model_length(r, {r.distance, r.lower, r.upper}, 1 / motion.unit);
 }
 
 }  // namespace onset

@@ -2,7 +2,8 @@
 // distance.
 #pragma once
 
-#include "onset/result.hpp"
+#include "narrowphase/double_double.hpp"
+#include "narrowphase/nearest.hpp"
 
 namespace onset {
 
@@ -34,5 +35,9 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]);
 // both ends, where the one at t is less than 2^-40 of that.
 ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
                              double t);
+
+// The same of differences that are off by `blur` at most, lengths in their unit; none is beyond 2^10, and rho
+// not below 2^-100.
+ClosestPoints closest_points(const Differences<DoubleDouble>& d, double blur);
 
 }  // namespace onset

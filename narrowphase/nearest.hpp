@@ -11,6 +11,8 @@
 
 namespace onset {
 
+inline Vec rounded(const VecOf<DoubleDouble>& v) { return {{v[0].hi, v[1].hi, v[2].hi}}; }
+
 // The differences first - second of a pair are q - U a - V b, with (U, V) in the triangle U, V >= 0, U + V <=
 // 1 (vertex-face: a and b lead from the first corner of the face to the others) or in the unit square
 // (edge-edge: a runs against the first edge, b along the second). Their corners are those of the triangle, or

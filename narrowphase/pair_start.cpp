@@ -4,6 +4,7 @@
 
 #include "narrowphase/closest_points.hpp"
 #include "narrowphase/kernels.hpp"
+#include "narrowphase/maximum_norm.hpp"
 #include "narrowphase/pair_decision.hpp"
 
 namespace onset {
@@ -48,15 +49,15 @@ bool NarrowPhase::stays(const Case& c) const {
 
 NarrowPhase::Bounds NarrowPhase::bounds_at(const Case& c, const Corners& corners, double t) const {
   Bounds r{};
-  if (c.input.maximum_norm) {  // its look chooses by margins, which no tie can mislead
-    const auto look = c.kind == PairKind::vertex_face ? kernels_->look_vertex_face : kernels_->look_edge_edge;
-    r.upper = look(c.input, c.row, t, r.w.x);
+  const ExactPair pair = exact_pair(c.kind, c.vertices());
+  if (c.input.maximum_norm) {
+    r.w = best_direction_in_maximum_norm(PreciseMotion(c.kind, pair.t0, pair.t1).at(t));
     const double size = std::fabs(r.w[0]) + std::fabs(r.w[1]) + std::fabs(r.w[2]);
-    const double product = least(corners, t, r.w);
-    r.lower = size > 0 ? (product - 8 * kU * corners.rho) / size * (1 - 0x1p-49) : -INFINITY;
+    r.lower = size > 0 ? (least(corners, t, r.w) - 8 * kU * corners.rho) / size * (1 - 0x1p-49) : 0;
+    // The best direction shows all of the distance (duality): the bound is off by its own rounding and that of w.
+    r.upper = r.lower > 0 ? r.lower + 32 * kU * corners.rho : distance_at(c, t);
     return r;
   }
-  const ExactPair pair = exact_pair(c.kind, c.vertices());
   const ClosestPoints found =
       t == 0 ? closest_points(c.kind, pair.t0) : closest_points(c.kind, pair.t0, pair.t1, t);
   r.w = vec(found.direction);

@@ -122,7 +122,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   LineSearchStep r;
   r.result = h.start;
   r.keep = h.keep;
-  r.rounding = h.rounding;
+  r.rounding = h.start.rounding;
   if (h.start.outcome != Outcome::free) return r;
   in_arena(h.options.threads, [&] {
     const Clock clock;

@@ -49,6 +49,17 @@ double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_
   return safe_step(r, Positions(dx.data(), x_t0.rows()));
 }
 
+// Pairs that are not listed are beyond d_hat of their separation, and close no faster than both of their sides move.
+void bound_others(double d_hat, double moved, double rounding, double keep, StepResult& r) {
+  const auto until = [&](double room) { return std::max(0.0, room) / (2 * moved) * (1 - 0x1p-48); };
+  if (const double contact = until(d_hat - rounding); contact < 1) r.toi = std::min(r.toi, contact);
+  const double bound = until((1 - keep) * d_hat - 2 * rounding);
+  if (bound >= r.step) return;
+  r.step = bound;
+  r.outcome = Outcome::free;
+  r.limiting = Pair{};
+}
+
 }  // namespace
 
 // Storing errs as base/motion.hpp says, in half the distance by half of that bound; largest is M, or d_hat where that is more, and x
@@ -106,13 +117,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
       const double *a = motion.t0(v), *b = motion.t1(v);
       moved = std::max(moved, std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
     }
-    const double room = (1 - keep) * close.d_hat - 2 * rounding_of_distances(motion);
-    const double bound = std::max(0.0, room) / (2 * moved) * (1 - 0x1p-48);
-    if (moved > 0 && bound < r.step) {
-      r.step = bound;
-      r.outcome = Outcome::free;
-      r.limiting = Pair{};
-    }
+    if (moved > 0) bound_others(close.d_hat, moved, rounding_of_distances(motion), keep, r);
     r.stats.seconds_total = clock.seconds();
   });
   return r;
