@@ -26,12 +26,13 @@ static std::string wrong_start(const Asked& asked, const SceneTruth& truth, cons
   return blocks ? "" : "the limiting pair does not touch";
 }
 
+// Of pairs that start within a separation and part toi may tell the start or the next contact.
 static std::string wrong_toi(const Asked& asked, const SceneTruth& truth, const StepResult& r, Call call) {
   const oracle::Truth first = truth.first();
-  const bool silent =
-      call == Call::close && r.toi == INFINITY;  // of pairs that are not listed nothing is known
-  if (first.collides && !silent && !(r.toi <= first.toi_lo)) return "toi is later than the contact";
-  if (first.toi_hi == 0) return {};  // parting: toi may be 0 or the next contact
+  const bool silent = call == Call::close && r.toi == INFINITY;  // of pairs that are not listed nothing is known
+  for (const PairTruth& pair : truth.contacts)
+    if (!silent && !pair.initial() && !(r.toi <= pair.within.toi_lo)) return "toi is later than the contact";
+  if (first.toi_hi == 0) return {};
   if (!(r.step <= r.toi)) return "step beyond toi";
   if (r.toi > 0 && !(r.step < r.toi)) return "step at toi";
   if (call != Call::whole || !decides_exactly(asked)) return {};
