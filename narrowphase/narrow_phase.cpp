@@ -126,6 +126,12 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
 }
 
+KernelPairs NarrowPhase::without_storing(KernelPairs pairs, double horizon) {
+  pairs.keep = pairs.storing = pairs.cull_beyond = 0;
+  pairs.horizon = pairs.cull_horizon = horizon;
+  return pairs;
+}
+
 int NarrowPhase::cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const {
   if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) {
     for (int i = 0; i < input.count; ++i) scratch.survivors[std::size_t(i)] = i;
@@ -150,7 +156,11 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   const auto advance =
       kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
   advance(input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
-  if (!in_.stored && in_.options.certainty != CertaintyLevel::conservative) {
+  std::vector<KernelResult>& exact = scratch.exact_results;
+  if (in_.stored) {  // what the exact motion says, too: within the tolerance the two can differ
+    exact.resize(std::size_t(survivors));
+    advance(without_storing(input, input.horizon), scratch.survivors.data(), survivors, nullptr, exact.data());
+  } else if (in_.options.certainty != CertaintyLevel::conservative) {
     const auto certify =
         kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
     certify(input, scratch.survivors.data(), survivors, scratch.results.data());
@@ -164,8 +174,10 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
     const std::int64_t before = scratch.stats.checks;
     scratch.stats.checks += r.checks;
     const Case c{kind, pairs[row], input, row};
-    if (r.verdict != Verdict::free)
-      in_.stored ? finish_stored(c, r, scratch.stats, out) : finish(c, r, 0, scratch.stats, out);
+    if (in_.stored && (r.verdict != Verdict::free || exact[std::size_t(i)].verdict != Verdict::free))
+      finish_stored(c, r, scratch.stats, out);
+    else if (!in_.stored && r.verdict != Verdict::free)
+      finish(c, r, 0, scratch.stats, out);
     scratch.stats.note_checks(pairs[row], scratch.stats.checks - before);
   }
 }

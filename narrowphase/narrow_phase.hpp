@@ -74,7 +74,7 @@ struct NarrowPhaseStats {
 struct NarrowPhaseScratch {
   std::vector<int> vertices, survivors;  // 4 ids a pair
   std::vector<double> separation;
-  std::vector<KernelResult> results;
+  std::vector<KernelResult> results, exact_results;
   NarrowPhaseStats stats;
 };
 
@@ -114,6 +114,8 @@ class NarrowPhase {
 
   KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon,
                       NarrowPhaseScratch& scratch) const;
+  // Of the exact motion.
+  static KernelPairs without_storing(KernelPairs pairs, double horizon);
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   Corners corners_of(const Case& c) const;

@@ -51,9 +51,7 @@ void NarrowPhase::note_kept(const Case& c, double share, NarrowPhaseStats& stats
 
 void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
                                 std::vector<PairResult>& out) const {
-  KernelPairs plain = c.input;
-  plain.keep = plain.storing = plain.cull_beyond = 0;
-  plain.horizon = plain.cull_horizon = 1;
+  const KernelPairs plain = without_storing(c.input, 1);  // so that what it says does not depend on a horizon
   const Case exact{c.kind, c.pair, plain, c.row};
   std::vector<PairResult> contact;  // of the exact motion: one at most
   StoredLimit limit{0, checked};
@@ -63,7 +61,6 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
     limit = limit_from_start(c, exact, stats, contact);
   } else {
     limit.found = carry_on(c, checked, stats, searched);
-    if (limit.found.verdict == Verdict::free) return;
     decide(exact, stats, contact);
   }
   KernelResult& found = limit.found;
@@ -106,7 +103,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
     stats.checks += limit.found.checks;
     bool searched = false;
     limit.found = carry_on(c, limit.found, stats, searched);
-    if (limit.found.verdict != Verdict::free) decide(exact, stats, contact);
+    decide(exact, stats, contact);
     return limit;
   }
   decide(exact, stats, contact);

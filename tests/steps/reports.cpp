@@ -26,15 +26,11 @@ static std::string wrong_start(const Asked& asked, const SceneTruth& truth, cons
   return blocks ? "" : "the limiting pair does not touch";
 }
 
-// Of pairs that start within a separation and part toi may tell the start or the next contact.
 static std::string wrong_toi(const Asked& asked, const SceneTruth& truth, const StepResult& r, Call call) {
-  const oracle::Truth first = truth.first();
-  const bool silent = call == Call::close && r.toi == INFINITY;  // of pairs that are not listed nothing is known
-  for (const PairTruth& pair : truth.contacts)
-    if (!silent && !pair.initial() && !(r.toi <= pair.within.toi_lo)) return "toi is later than the contact";
-  if (first.toi_hi == 0) return {};
+  const oracle::Truth first = truth.first_met();
+  if (first.collides && !(r.toi <= first.toi_lo)) return "toi is later than the contact";
   if (!(r.step <= r.toi)) return "step beyond toi";
-  if (r.toi > 0 && !(r.step < r.toi)) return "step at toi";
+  if (truth.initial()) return {};  // parting: toi is the next contact
   if (call != Call::whole || !decides_exactly(asked)) return {};
   if (r.toi != first.toi_lo) return "toi is not the exact time";
   return r.toi_hi == first.toi_hi ? "" : "toi_hi is not the exact time";
@@ -46,7 +42,7 @@ static std::string wrong_outcome(const SceneTruth& truth, const StepResult& r, b
     case Outcome::free:
       if (named) return "free, but a pair limits";
       if (bounded) return {};
-      if (truth.first().collides) return "free, but there is a contact";
+      if (truth.first_met().collides) return "free, but there is a contact";
       if (r.step < 1) return "free, but the step is shorter";
       return r.toi == INFINITY ? "" : "free, but toi is finite";
     case Outcome::contact:
@@ -94,23 +90,20 @@ std::string wrong_set(const Asked& asked, const SceneTruth& truth, const ActiveS
   if (decides_exactly(asked) && found < set.size()) return "a row that is no contact";
   for (std::size_t i = 0; i < set.size(); ++i)
     if (!(set.toi[i] >= 0 && set.toi[i] <= 1)) return "toi of a row outside [0, 1]";
-  const bool whole = asked.options.window == INFINITY && set.outcome != Outcome::out_of_memory;
-  if (whole && set.complete_until != INFINITY) return "not complete without a reason";
+  const double window = asked.options.window;
+  if (set.size() > 0 && window == INFINITY && set.complete_until != INFINITY)
+    return "not complete without a reason";
   return {};
 }
 
 std::string disagreement(const StepResult& r, const ActiveSet& set, bool free) {
-  double least = INFINITY, limit = INFINITY;
-  bool parting = false;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    least = std::min(least, set.toi[i]), limit = std::min(limit, set.step_limit[i]);
-    parting |= set.status[i] == Outcome::initial_separating;
-  }
+  double limit = INFINITY;
+  for (std::size_t i = 0; i < set.size(); ++i) limit = std::min(limit, set.step_limit[i]);
   if (r.step > limit) return "the step is beyond a row's step_limit";
-  if (!parting && r.toi != least) return "toi is not the least toi of the active set";
+  if (r.toi != limit) return "toi is not the least step_limit of the active set";
   if (r.outcome == Outcome::free && !free) return "the step is free, is_step_collision_free is false";
   if (free && r.toi < INFINITY) return "is_step_collision_free, but toi is finite";
-  if (free && set.size() > 0) return "is_step_collision_free, but the active set has rows";
+  if (free && limit <= 1) return "is_step_collision_free, but the active set has rows that limit it";
   return {};
 }
 

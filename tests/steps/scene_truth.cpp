@@ -22,6 +22,13 @@ SceneTruth::SceneTruth(const Asked& asked) {
   });
 }
 
+oracle::Truth SceneTruth::first_met() const {
+  oracle::Truth first;
+  for (const PairTruth& pair : contacts)
+    if (!(pair.initial() && !pair.touching) && pair.within.toi_lo < first.toi_lo) first = pair.within;
+  return first;
+}
+
 oracle::Truth SceneTruth::first() const {
   oracle::Truth t;
   for (const PairTruth& pair : contacts) {
