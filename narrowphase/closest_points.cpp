@@ -1,6 +1,6 @@
 #include "narrowphase/closest_points.hpp"
 
-#include "narrowphase/pair_differences.hpp"
+#include "narrowphase/precise_differences.hpp"
 
 namespace onset {
 namespace {

@@ -6,7 +6,7 @@
 #include "narrowphase/closest_points.hpp"
 #include "narrowphase/exact_complete.hpp"
 #include "narrowphase/kernels.hpp"
-#include "narrowphase/pair_differences.hpp"
+#include "narrowphase/precise_differences.hpp"
 
 namespace onset {
 namespace {

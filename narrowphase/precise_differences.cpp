@@ -1,4 +1,4 @@
-#include "narrowphase/pair_differences.hpp"
+#include "narrowphase/precise_differences.hpp"
 
 namespace onset {
 namespace {
