@@ -307,16 +307,21 @@ void finish_motion(Motion& m) {
   store_permuted(m);
 }
 
-// Storing x_t0 + step dx rounds: fl(x + fl(s dx)) errs per coordinate by u |s dx| + u |x_new|, and x_t1 =
-// fl(x + dx), on which the certificates stand, by u |x_t1|: below 4u M in all with M the largest coordinate
-// (|dx| <= 2M). A distance changes by at most sqrt(3) times that at each of its two points: 8 sqrt(3) u M <
-// 14u M.
+bool is_seam(const Motion& m, PairKind kind, const std::array<int, 4>& vertices) {
+  const std::size_t side = kind == PairKind::vertex_face ? 1 : 2;
+  const auto same = [](const double* x, const double* y) { return x[0] == y[0] && x[1] == y[1] && x[2] == y[2]; };
+  for (std::size_t i = 0; i < side; ++i)
+    for (std::size_t j = side; j < 4; ++j)
+      if (same(m.t0(vertices[i]), m.t0(vertices[j])) && same(m.t1(vertices[i]), m.t1(vertices[j]))) return true;
+  return false;
+}
+
 double rounding_of_distances(const Motion& m) {
   double largest = 0;
   for (int v = 0; v < m.num_vertices; ++v)
     for (const double* x : {m.t0(v), m.t1(v)})
       for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x[a]));
-  return 14 * 0x1p-53 * largest;
+  return (kStoring * largest + 0x1p-1070) * (1 + 0x1p-50);
 }
 
 double Extents::largest() const {

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "base/parallel.hpp"
+#include "broadphase/interval.hpp"
 
 namespace onset {
 
@@ -44,13 +45,26 @@ int write_point(const FloatMap& map, const double* x, float* out) {
   return (rounded[0] | rounded[4]) | (rounded[1] | rounded[5]) << 1 | (rounded[2] | rounded[6]) << 2;
 }
 
+// The same widened by r > 0, as motion_box widens it: the map is then not one to one.
+int write_widened_point(const FloatMap& map, const double* x, double r, float* out) {
+  float below[8], above[8];
+  for (std::size_t k = 0; k < 8; ++k) below[k] = map(widen_down(x[k], r), k % 4);
+  for (std::size_t k = 0; k < 8; ++k) above[k] = map(widen_up(x[k], r), k % 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool padding = k == 3;
+    out[k] = padding ? 0 : 0 - below[k], out[4 + k] = padding ? 0 : above[k];
+    out[8 + k] = padding ? 0 : 0 - below[4 + k], out[12 + k] = padding ? 0 : above[4 + k];
+  }
+  return 7;
+}
+
 }  // namespace
 
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
                        const int* ids, std::size_t count) {
   const bool swept = input.test == BoxTest::swept;
   const bool points =
-      kind == Primitive::vertex && inflation == 0 && input.mesh.thickness.empty() && input.horizon == 1;
+      kind == Primitive::vertex && input.mesh.thickness.empty() && input.horizon == 1;
   const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
   Supports s;
   s.count = count;
@@ -63,7 +77,8 @@ Supports make_supports(const BroadPhaseInput& input, double inflation, const Flo
     for (std::size_t i = first; i < last; ++i) {
       if (points && i + kAhead < last) __builtin_prefetch(input.motion.t0(ids[i + kAhead]));
       if (points)
-        mine |= write_point(map, input.motion.t0(ids[i]), record);
+        mine |= inflation == 0 ? write_point(map, input.motion.t0(ids[i]), record)
+                               : write_widened_point(map, input.motion.t0(ids[i]), inflation, record);
       else
         mine |= write_record(map, motion_box(input, kind, ids[i], inflation), record);
       float* out = s.records.data() + i * stride;

@@ -142,9 +142,29 @@ inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const Kernel
   }
 }
 
+// What each lane keeps beyond d of its gap, which is between `apart` and dist - d (paper, section 7.2: d = p d_i). `unsure` gets
+// the lanes whose gap has no room for all of it, or whose two bounds differ by more than 2^-10: they are decided with more care.
+template <int K>
+inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4, K>& s, D4 dist, D4 apart,
+                  D4::Mask& unsure) {
+  using V = D4;
+  Points<V> p;
+  gather(pairs, rows, p);
+  V largest = zero<V>();
+  for (int end = 0; end < 2; ++end)
+    for (int i = 0; i < 4; ++i)
+      for (int a = 0; a < 3; ++a) largest = max(abs(p.p[end][i][a]), largest);
+  const V gap = dist - s.d;
+  const V rounding = (V::all(pairs.storing) * largest + V::all(pairs.storing > 0 ? kStoredLeast : 0)) / s.unit;
+  const V wanted = V::all(pairs.keep) * gap + V::all(kStoredRoundings) * rounding;
+  const V most = V::all(0.5 * (1 + pairs.keep)) * apart;
+  unsure = unsure | (gap - apart > V::all(0x1p-10) * apart) | (most < wanted);
+  return select(apart > zero<V>(), min(most, wanted), zero<V>());
+}
+
 // The first check, at t = 0, of four pairs: fixes delta, finds pairs that start within d.
 template <int K>
-inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) {
+inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4, K>& s, int (&verdict)[4]) {
   using V = D4;
   const bool maximum_norm = pairs.maximum_norm;
   V w[3], dist;
@@ -152,11 +172,12 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
   const V e7 = V::all(7.25 * kU) * s.rho;
   // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 5u) for the Euclidean norm.
   V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
-  // A share of the gap is kept (paper, section 7.2: d = p d_i), and room for the caller's rounding of positions.
-  const V share = V::all(pairs.keep) * apart + V::all(pairs.rounding) / s.unit;
-  const V kept = select(apart > zero<V>(), min(V::all(0.5 * (1 + pairs.keep)) * apart, share), zero<V>());
-  s.d = s.d + kept;
-  apart = apart - kept;
+  auto unsure = apart <= zero<V>();
+  if (pairs.keep > 0 || pairs.storing > 0) {
+    const V kept = kept_of(pairs, rows, s, dist, apart, unsure);
+    s.d = s.d + kept;
+    apart = apart - kept;
+  }
   s.delta = max(min(s.delta, V::all(0.25) * apart), V::all(16) * e7);
   const Check<V, K> check = advance(s, w, dist, maximum_norm, true);
   // Never a zero from a start that is apart: where the full demand of d + delta/2 certifies nothing, d alone does.
@@ -168,13 +189,13 @@ inline void first_check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict
     s.t = select(held, max(fixed_certificate(g0, g1, thr, zero<V>()), s.t), s.t);
   }
   judge(s, check, pairs, verdict);
-  const int positive = bits(apart > zero<V>());
+  const int initial = bits(unsure) | ~bits(apart > zero<V>());
   const int moved = bits(s.t > zero<V>());
   for (int l = 0; l < 4; ++l) {
     // Near contact at 0, yet certified until later: to be looked at there, if there is a check left.
     if (verdict[l] == int(Verdict::contact) && (moved >> l & 1))
       verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::budget);
-    if (!(positive >> l & 1)) verdict[l] = int(Verdict::initial);
+    if (initial >> l & 1) verdict[l] = int(Verdict::initial);
   }
 }
 
@@ -227,7 +248,7 @@ inline void refill(const KernelPairs& pairs, const int* subset, int first, int c
   }
   set_up(pairs, rows, pending.state);
   if (resume != nullptr) return restore(resume, pending.owner, pending.state);
-  first_check(pairs, pending.state, verdict);
+  first_check(pairs, rows, pending.state, verdict);
   pending.settle(verdict, results);
   if (pending.waiting == 0) return;
   check(pairs, pending.state, verdict);

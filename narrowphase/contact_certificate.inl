@@ -164,7 +164,7 @@ inline void certify_all(const KernelPairs& pairs, const int* subset, int count, 
     waiting = 0;
   };
   for (int i = 0; i < count; ++i) {
-    if (results[i].verdict != Verdict::contact) continue;
+    if (results[i].verdict != Verdict::contact || pairs.separation[subset[i]] != 0) continue;
     owner[waiting++] = i;
     if (waiting == 4) flush();
   }

@@ -96,6 +96,23 @@ double latest(double t, Parts&& parts) {
 
 }  // namespace
 
+namespace {
+
+// A pair within noise of touching: parts along a direction that divides it, and never touches before, exactly.
+double part_from_noise(const InitialCase& c, const Hull& here, double noise, Vec& n) {
+  const Side side = side_at_start(c);
+  const double reached = latest(0, [&](double tb) {
+    const Hull there(c.corners, tb);
+    n = dividing_direction(here, there, side, noise);
+    return here.least(n) >= -noise && there.least(n) > 4 * noise && side.allows(n);
+  });
+  if (reached == 0 || c.exact == nullptr) return reached;
+  const auto touch = exact_first_contact(*c.exact);
+  return touch && touch->lo <= reached ? 0 : reached;
+}
+
+}  // namespace
+
 Parting find_parting(const InitialCase& c) {
   Parting r;
   if (same_at_both_ends(c.corners)) {
@@ -103,23 +120,18 @@ Parting find_parting(const InitialCase& c) {
     return r;
   }
   const double noise = 16 * kU * c.corners.rho;
-  const auto look = c.kind == PairKind::vertex_face ? c.kernels.look_vertex_face : c.kernels.look_edge_edge;
+  double start = -INFINITY;  // what must not be lost
   for (int rounds = 0; rounds < 64 && r.t < 1; ++rounds) {
     const Hull here(c.corners, r.t);
-    Vec w;
-    look(c.pairs, c.row, r.t, w.x);
-    const double before = here.least(w);
+    Vec n = c.direction(r.t);
+    const double before = here.least(n);
+    if (r.t == 0) start = before;
     double reached = r.t;
-    Vec n = w;
     if (before > 4 * noise) {
-      reached = latest(r.t, [&](double tb) { return Hull(c.corners, tb).least(w) >= before; });
+      const double least = std::max(before, start);
+      reached = latest(r.t, [&](double tb) { return Hull(c.corners, tb).least(n) >= least; });
     } else if (r.t == 0) {
-      const Side side = side_at_start(c);
-      reached = latest(r.t, [&](double tb) {
-        const Hull there(c.corners, tb);
-        n = dividing_direction(here, there, side, noise);
-        return here.least(n) >= -noise && there.least(n) > 4 * noise && side.allows(n);
-      });
+      reached = part_from_noise(c, here, noise, n);
     }
     if (reached == r.t) return r;
     r.t = reached;

@@ -2,8 +2,12 @@
 // them?
 #pragma once
 
+#include <functional>
+
 #include "narrowphase/corners.hpp"
+#include "narrowphase/exact.hpp"
 #include "narrowphase/kernel.hpp"
+#include "narrowphase/vec.hpp"
 
 namespace onset {
 
@@ -12,8 +16,9 @@ struct InitialCase {
   const KernelPairs& pairs;
   int row;  // the pair, in `pairs`
   PairKind kind;
-  const KernelTable& kernels;
-  double separation;  // d, scaled as the corners
+  double separation;                            // d, scaled as the corners
+  const std::function<Vec(double)>& direction;  // unit, that separates the pair best at a time
+  const ExactPair* exact;                       // null: the pair may touch as it parts
 };
 
 // Until `t` the pair never comes closer than it is at t = 0, up to the rounding bound 16u rho; nothing is
@@ -25,10 +30,10 @@ struct Parting {
 };
 
 // Closer than d but not touching: along the closest direction w the least product with a corner is a concave
-// function of time and a lower bound of the distance; where it has not fallen at some later time, it has not
-// fallen between. Touching: a direction n that has the whole pair on its positive side at 0 (up to rounding)
-// and strictly so at t keeps it there in between; the side itself is decided exactly, so a vertex a hair
-// above a face is never let through it. Motion that stays in touch is pressing, unless nothing moves at all.
+// function of time and a lower bound of the distance; where it is no less at some later time than at the start, it was
+// no less between. So close that this is noise, or touching: a direction n that has the whole pair on its positive side
+// at 0 (up to rounding) and strictly so at t keeps it there in between; the side itself is decided exactly, and so is that
+// the pair does not touch before t. Motion that stays in touch is pressing, unless nothing moves at all.
 Parting find_parting(const InitialCase& c);
 
 }  // namespace onset

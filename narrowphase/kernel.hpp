@@ -14,19 +14,26 @@ struct KernelPairs {
   double scale;                // a power of two that brings the scene's largest corner difference near 1
   double tolerance;  // model length
   double sharpest;   // scaled: the tolerance is at most this share of a pair\'s largest corner difference
-  double reach;      // a pair reported at time t is within d + reach then, model length
-  // Beyond d a pair must also keep this share of its certified initial gap, in [0, 1), plus `rounding` (model length), but
-  // never more than half of what the share leaves.
-  double keep, rounding;
-  double horizon;     // pairs certified apart beyond this time may be dropped as free
+  double reach;      // a pair reported at time t within its checks is within what it must keep + reach then, model length
+  // Beyond d a pair must also keep this share of its initial gap, in [0, 1), and, where storing > 0, kStoredRoundings times the
+  // bound storing * (its largest coordinate) + kStoredLeast, model length; but never more than half of what the share leaves. Then
+  // also a pair whose gap is too small for that, or not known well, is `initial`.
+  double keep, storing;
+  double cull_beyond;   // model length: at least twice that bound for every pair, for the culls; 0 where storing is 0
+  double cull_horizon;  // pairs certified apart until then by the culls, or
+  double horizon;       // beyond this time by advancement, may be dropped as free
   bool maximum_norm;  // d is measured in the L-infinity norm
   long long max_checks;
 };
 
+// Of the rounding of stored positions, so much is kept where the gap has room: the next step then finds three left.
+constexpr double kStoredRoundings = 4;
+constexpr double kStoredLeast = 0x1p-1070;
+
 enum class Verdict : int {
   free,     // certified apart on the whole step (or beyond the horizon)
   contact,  // within d + delta at t
-  initial,  // not certifiably farther apart than d at t = 0
+  initial,  // not certifiably farther apart than d at t = 0, or not by enough to be stored
   stalled,  // apart until t, progress slow
   budget,   // max_checks spent: apart until t
 };
@@ -36,7 +43,7 @@ struct KernelResult {
   double t;         // certified apart on [0, t]
   double distance;  // scaled upper bound of the distance at t
   double delta;     // scaled tolerance used: contact means distance - d <= delta
-  double separation;  // scaled d, with what `keep` and `rounding` add
+  double separation;  // scaled d, with what `keep` and `storing` add
   double unit;
   long long checks;
   Verdict verdict;
@@ -69,7 +76,7 @@ struct KernelTable {
                               KernelResult*);
   void (*advance_edge_edge)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
                             KernelResult*);
-  // Sets touched_by of those of results[0..count), as advance left them, that are in contact; separation 0.
+  // Sets touched_by of those of results[0..count), as advance left them, that are in contact and have no separation.
   void (*certify_vertex_face)(const KernelPairs&, const int* subset, int count, KernelResult* results);
   void (*certify_edge_edge)(const KernelPairs&, const int* subset, int count, KernelResult* results);
   // Contact points, normals, gaps and speeds of pairs 0..count at the times t; separations are not read.

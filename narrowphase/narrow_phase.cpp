@@ -8,15 +8,10 @@
 #include "narrowphase/initial.hpp"
 #include "narrowphase/interval_certificate.hpp"
 #include "narrowphase/kernels.hpp"
+#include "narrowphase/pair_decision.hpp"
 
 namespace onset {
 namespace {
-
-// Advancement converges so fast that stopping at a sixteenth of the tolerance costs about one check, and most
-// pairs that pass within the tolerance without touching are then told apart.
-constexpr double kSharpness = 0.0625;
-// Nor is more given away than this share of the pair's size: hand-made near misses have gaps of 1e-11 of it.
-constexpr double kSharpest = 0x1p-38;
 
 // With fewer checks than this a pair may be reported far from contact, and a horizon could hide it: then it
 // is not used.
@@ -78,6 +73,12 @@ NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
   if (input.for_many) rounded_ = round_positions(input.motion, scale_);
 }
 
+// Advancement stops within max(tolerance, 16 E7), E7 = 7.25u rho with rho <= sqrt(3) extent: 201u extent; the
+// inclusion root finder within that and its corners' errors.
+double reported_within(double tolerance, double extent) {
+  return std::max(tolerance, 0x1p-45 * extent + 0x1p-1070) * (1 + 0x1p-40);
+}
+
 bool NarrowPhase::uses_horizon() const { return in_.options.max_checks >= kChecksForHorizon; }
 
 void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
@@ -101,7 +102,7 @@ void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
   }
 }
 
-KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
+KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon,
                                  NarrowPhaseScratch& scratch) const {
   look_up(kind, pairs, count, scratch);
   // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
@@ -115,12 +116,20 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           scale_,
           inclusion_only ? in_.tolerance : kSharpness * in_.tolerance,
           inclusion_only ? 2 : kSharpest,
-          in_.tolerance,
+          reported_within(in_.tolerance, in_.extent),
           in_.keep,
-          in_.rounding,
-          uses_horizon() ? horizon : 1,
+          in_.stored ? kStoring : 0,
+          in_.stored ? kStoredRoundings * in_.rounding : 0,
+          uses_horizon() ? std::min(horizon.culls, 1.0) : 1,
+          uses_horizon() ? std::min(horizon.advancement, 1.0) : 1,
           in_.options.norm == Norm::maximum,
           inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
+}
+
+KernelPairs NarrowPhase::without_storing(KernelPairs pairs, double horizon) {
+  pairs.keep = pairs.storing = pairs.cull_beyond = 0;
+  pairs.horizon = pairs.cull_horizon = horizon;
+  return pairs;
 }
 
 int NarrowPhase::cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const {
@@ -134,11 +143,11 @@ int NarrowPhase::cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratc
 
 void NarrowPhase::cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
                        std::vector<IdPair>& out) const {
-  const int survivors = cull(kind, prepare(kind, pairs, count, 1, scratch), scratch);
+  const int survivors = cull(kind, prepare(kind, pairs, count, {}, scratch), scratch);
   for (int i = 0; i < survivors; ++i) out.push_back(pairs[scratch.survivors[std::size_t(i)]]);
 }
 
-void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
+void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon,
                           NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const {
   if (count == 0) return;
   const KernelPairs input = prepare(kind, pairs, count, horizon, scratch);
@@ -147,7 +156,11 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   const auto advance =
       kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
   advance(input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
-  if (settles()) {
+  std::vector<KernelResult>& exact = scratch.exact_results;
+  if (in_.stored) {  // what the exact motion says, too: within the tolerance the two can differ
+    exact.resize(std::size_t(survivors));
+    advance(without_storing(input, input.horizon), scratch.survivors.data(), survivors, nullptr, exact.data());
+  } else if (in_.options.certainty != CertaintyLevel::conservative) {
     const auto certify =
         kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
     certify(input, scratch.survivors.data(), survivors, scratch.results.data());
@@ -160,7 +173,11 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
     if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) r.checks = 0;  // its checks are boxes
     const std::int64_t before = scratch.stats.checks;
     scratch.stats.checks += r.checks;
-    if (r.verdict != Verdict::free) finish({kind, pairs[row], input, row}, r, 0, scratch.stats, out);
+    const Case c{kind, pairs[row], input, row};
+    if (in_.stored && (r.verdict != Verdict::free || exact[std::size_t(i)].verdict != Verdict::free))
+      finish_stored(c, r, scratch.stats, out);
+    else if (!in_.stored && r.verdict != Verdict::free)
+      finish(c, r, 0, scratch.stats, out);
     scratch.stats.note_checks(pairs[row], scratch.stats.checks - before);
   }
 }
@@ -171,8 +188,12 @@ double NarrowPhase::distance_at(const Case& c, double t) const {
       c.input, c.row, t, w);
 }
 
-Corners NarrowPhase::corners_of(const Case& c) const {
-  return make_corners(c.kind, in_.motion, c.input.vertices[c.row]);
+Corners NarrowPhase::corners_of(const Case& c) const { return make_corners(c.kind, in_.motion, c.vertices()); }
+
+void NarrowPhase::advance(const Case& c, const KernelResume* resume, KernelResult& result) const {
+  const auto advance =
+      c.kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
+  advance(c.input, &c.row, 1, resume, &result);
 }
 
 // A pair that crawls: certify an interval and go on, or go on regardless for a while. Real contacts of
@@ -197,11 +218,32 @@ KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelR
     }
     patient = t == r.t;
     const KernelResume resume{t, r.separation, r.delta, r.checks, patient ? kPatience : 0};
-    const auto advance =
-        c.kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
-    advance(c.input, &c.row, 1, &resume, &r);
+    advance(c, &resume, r);
   }
   return r;
+}
+
+// From where a pair stalled on, to free, contact or a spent budget. `searched`: by the inclusion root finder, whose
+// bound of the distance is then the result's.
+KernelResult NarrowPhase::carry_on(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
+                                   bool& searched) const {
+  const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
+  KernelResult found = checked;
+  if (!inclusion_only && found.verdict == Verdict::stalled) found = push_on(c, corners_of(c), found);
+  stats.checks += found.checks - checked.checks;
+  searched = found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only);
+  if (!searched) return found;
+  const InclusionResult result =
+      find_first_inclusion({corners_of(c), found.t, found.separation, found.delta,
+                            in_.options.norm == Norm::maximum, in_.options.max_checks - found.checks});
+  ++stats.inclusion;
+  stats.checks += result.checks;
+  found.t = result.t;
+  found.distance = result.distance;
+  found.verdict = result.end == InclusionResult::End::free     ? Verdict::free
+                  : result.end == InclusionResult::End::budget ? Verdict::budget
+                                                               : Verdict::contact;
+  return found;
 }
 
 void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
@@ -209,36 +251,25 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   KernelResult found = checked;
   PairResult r{c.pair, 0, 0, 0, Outcome::contact};
   const double d = found.separation;
-  const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
+  if (found.verdict == Verdict::initial) {
+    if (is_welded(c)) return;
+    if (const Corners corners = corners_of(c); d > 0)
+      if (const Bounds start = bounds_at(c, corners, 0); start.lower - d > kStartNoise * corners.rho) {
+        found = advance_from(c, corners, start, 0, 0);
+        stats.checks += found.checks - checked.checks;
+      }
+  }
   // What stalls is asked first whether it touches at all: that takes less than to find out in doubles.
   ExactAnswer truth{Answer::unknown, {}};
-  if (!inclusion_only && found.verdict == Verdict::stalled) {
+  if (in_.options.narrow_phase != NarrowPhaseMethod::inclusion && found.verdict == Verdict::stalled)
     truth = settle(c, found, from);
-    if (truth.answer == Answer::unknown) found = push_on(c, corners_of(c), found);
-  }
-  stats.checks += found.checks - checked.checks;
-  std::int64_t checks = found.checks;
+  bool searched = false;
+  if (truth.answer == Answer::unknown) found = carry_on(c, found, stats, searched);
   if (found.verdict == Verdict::free) return;
-  const bool searches = (found.verdict == Verdict::stalled && truth.answer == Answer::unknown) ||
-                        (found.verdict == Verdict::budget && inclusion_only);
-  if (searches) {
-    const InclusionResult searched =
-        find_first_inclusion({corners_of(c), found.t, d, found.delta, in_.options.norm == Norm::maximum,
-                              in_.options.max_checks - checks});
-    ++stats.inclusion;
-    stats.checks += searched.checks;
-    checks += searched.checks;
-    if (searched.end == InclusionResult::End::free) return;
-    found.t = searched.t;
-    found.distance = searched.distance;
-    found.verdict = searched.end == InclusionResult::End::budget ? Verdict::budget : Verdict::contact;
-  }
-  if (in_.rounding > 0) note_kept(c, found, stats);
   if (truth.answer == Answer::unknown) truth = settle(c, found, from);
-  const bool keeps = in_.keep > 0 || in_.rounding > 0;  // then rounded positions have to stay apart, too
-  if (truth.answer == Answer::no && !keeps) return;
+  if (truth.answer == Answer::no) return;
   const bool real = truth.answer == Answer::yes;
-  if (found.verdict == Verdict::initial && (keeps || !(real && truth.time.lo > 0)))
+  if (found.verdict == Verdict::initial && !(real && truth.time.lo > 0))
     return finish_initial(c, corners_of(c), found, truth, stats, out);
   const bool later =
       real && truth.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
@@ -246,7 +277,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   // These moved on after their last look; where the inclusion root finder did, it has a bound of its own,
   // which is the sharper one for slivers.
   if (found.verdict != Verdict::contact || found.checks <= 1 || later) {
-    const double known = searches && !later ? found.distance : INFINITY;
+    const double known = searched && !later ? found.distance : INFINITY;
     found.distance = std::min(known, distance_at(c, found.t));
   }
   // Corners move by at most 2 rho in the whole step, so far apart is a pair that has touched by time.hi.
@@ -261,35 +292,27 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   out.push_back(r);
 }
 
-// kept = min(keep gap + rounding, (1 + keep)/2 gap): less than this bound means the second, from which the
-// gap follows.
-void NarrowPhase::note_kept(const Case& c, const KernelResult& found, NarrowPhaseStats& stats) const {
-  const double kept = found.separation * found.unit - c.input.separation[c.row];
-  if (kept >= in_.rounding * (1 + in_.keep) / (1 - in_.keep) * (1 - 0x1p-30)) return;
-  NarrowPhaseStats here;
-  here.least_kept = kept > 0 ? (kept - in_.rounding) * (1 + in_.keep) / (2 * kept) : -1;
-  here.closest = c.pair;
-  stats.add(here);
-}
-
-// Touching or closer than d at the start: where the motion parts the pair the step goes on, to the next
-// contact if there is one.
+// Touching or closer than d at the start. From which side a pair came that touches is not known: it blocks the step, unless
+// the caller says otherwise. Where the motion parts the others the step goes on, to the next contact if there is one.
 void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
                                  const ExactAnswer& truth, NarrowPhaseStats& stats,
                                  std::vector<PairResult>& out) const {
   const double d = found.separation;
-  const Parting parting = find_parting({corners, c.input, c.row, c.kind, *kernels_, d});
-  PairResult r{c.pair, 0, parting.t, std::max(0.0, (found.distance - d) * found.unit),
+  const Bounds start = bounds_at(c, corners, 0);
+  PairResult r{c.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
                Outcome::initial_contact};
-  if (parting.t > 0) r.outcome = Outcome::initial_separating;
-  const bool at_start = truth.answer == Answer::yes
-                            ? truth.time.hi == 0
-                            : found.distance <= c.input.separation[c.row] / found.unit;
-  if (at_start)
+  const bool touching =
+      truth.answer == Answer::yes ? truth.time.hi == 0 : start.lower <= 0 && touches_at_start(c);
+  if (touching || start.upper <= d)
     r.certainty = Certainty::touching_at_start;
   else if (truth.answer == Answer::yes)
     r.certainty = Certainty::certain;
+  if (touching) r.toi_hi = 0;
   if (truth.answer == Answer::yes) r.toi_hi = truth.time.hi;
+  Parting parting;
+  if (!touching || in_.options.touching_may_pass_through) parting = find_parting_of(c, corners, d, touching);
+  if (parting.t > 0) r.outcome = Outcome::initial_separating;
+  r.step_limit = parting.t == 1 ? INFINITY : parting.t;
   if (parting.t == 0) r.limit_certainty = r.certainty;
   if (parting.apart && parting.t < 1) {
     const double floor = 116 * 0x1p-53 * corners.rho;  // 16 E7, as at a start that is apart
@@ -300,16 +323,14 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
     later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::budget;
     std::vector<PairResult> next;
     KernelPairs whole = c.input;
-    whole.horizon = 1;  // what is reported at 0 is reported with its step_limit
+    whole.horizon = whole.cull_horizon = 1;  // what is reported at 0 is reported with its step_limit
     finish({c.kind, c.pair, whole, c.row}, later, parting.t, stats, next);
-    r.step_limit = 1;
+    r.step_limit = INFINITY;
     if (!next.empty()) {
       r.step_limit = next[0].step_limit, r.limit_certainty = next[0].certainty;
       stats.note_outcome(next[0]);
     }
   }
-  if (parting.t > 0 && truth.answer == Answer::yes && truth.time.lo > 0)
-    r.step_limit = std::min(r.step_limit, truth.time.lo);
   out.push_back(r);
 }
 

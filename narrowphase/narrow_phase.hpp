@@ -10,10 +10,17 @@
 #include "narrowphase/corners.hpp"
 #include "narrowphase/exact.hpp"
 #include "narrowphase/float_positions.hpp"
+#include "narrowphase/initial.hpp"
 #include "narrowphase/kernel.hpp"
 #include "onset/options.hpp"
 
 namespace onset {
+
+// Which pairs the exact motion is asked about, where steps look at more.
+struct PairPredicate {
+  const void* context;
+  bool (*holds)(const void* context, PairKind kind, IdPair pair);
+};
 
 struct NarrowPhaseInput {
   const MeshData& mesh;
@@ -21,24 +28,31 @@ struct NarrowPhaseInput {
   double tolerance;  // model length, > 0
   double extent;     // the largest corner difference in the scene, about
   const Options& options;
-  double keep =
-      0;  // share of each pair's initial gap beyond its separation that it must keep as well, in [0, 1)
-  double rounding = 0;       // model length: kept too, up to half of what that share leaves
   bool exact_times = false;  // CertaintyLevel::exact: toi and toi_hi of every contact are adjacent doubles
   bool for_many = false;     // pairs: worth a pass over all vertices first
+  // Steps whose end is stored in doubles: results have a stored_limit. `keep`: share of each pair's initial gap beyond its
+  // separation that it must keep as well, in [0, 1). `rounding`: rounding_of_distances(motion).
+  bool stored = false;
+  double keep = 0, rounding = 0;
+  const PairPredicate* contacts = nullptr;  // others have no toi; null: all may have
 };
+
+// Model length: a pair that has not spent its checks is reported no farther beyond what it must keep.
+double reported_within(double tolerance, double extent);
 
 // A pair that is not certified free.
 struct PairResult {
   IdPair pair;
-  double toi;         // certified apart on [0, toi) (initial outcomes: 0)
-  double step_limit;  // how far this pair lets a step go: toi; for initial_separating the next contact, 1 if
-                      // none
+  double toi;         // certified apart on [0, toi) (initial outcomes: 0); infinite where only stored_limit is not
+  double step_limit;  // how far this pair lets the exact motion go: toi; for initial_separating the next contact,
+                      // infinite if none
   double tolerance;   // distance beyond the separation at which it was reported, model length
   Outcome outcome;
   Certainty certainty = Certainty::within_tolerance;
   double toi_hi = INFINITY;                                 // where certain: touches by then
   Certainty limit_certainty = Certainty::within_tolerance;  // of the contact at step_limit
+  // Where the end of a step is stored: it may be 0, or anything in [clear_from, stored_limit].
+  double stored_limit = INFINITY, clear_from = 0;
 };
 
 struct NarrowPhaseStats {
@@ -47,8 +61,8 @@ struct NarrowPhaseStats {
   IdPair worst{-1, -1};                      // the first pair with most_checks
   std::array<std::int64_t, 16> histogram{};  // of checks: Stats::checks_histogram
   double achieved_tolerance = 0;
-  // The least share of its gap, net of `rounding`, that a reported pair is sure to keep, and the pair; < 0:
-  // not even its separation. 1 where all keep what was asked for.
+  // The least share of its gap that a pair is sure to keep once it is stored, and the pair; 0 where its step is 0. 1 where
+  // all keep what was asked for.
   double least_kept = 1;
   IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
@@ -60,26 +74,31 @@ struct NarrowPhaseStats {
 struct NarrowPhaseScratch {
   std::vector<int> vertices, survivors;  // 4 ids a pair
   std::vector<double> separation;
-  std::vector<KernelResult> results;
+  std::vector<KernelResult> results, exact_results;
   NarrowPhaseStats stats;
 };
 
 class NarrowPhase {
  public:
   explicit NarrowPhase(const NarrowPhaseInput& input);
+
+  // Pairs certified apart beyond these may be left out, by the culls and by advancement; the rest have the same
+  // results whatever they are.
+  struct Horizon {
+    double culls = 1, advancement = 1;
+  };
   // Appends the pairs of the batch that are not free (in the batch's order); how many of these are contacts,
-  // and their outcomes, is for the caller to count: it may drop some. Pairs certified apart beyond `horizon`
-  // may be left out; the rest have the same results for any horizon.
-  void process(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
-               NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const;
+  // and their outcomes, is for the caller to count: it may drop some.
+  void process(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon, NarrowPhaseScratch& scratch,
+               std::vector<PairResult>& out) const;
   // Appends the pairs of the batch that the culls cannot certify as free.
   void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
             std::vector<IdPair>& out) const;
   bool uses_horizon() const;
-  bool times_are_exact() const { return in_.exact_times && settles_completely(); }
   // Gives a contact of this pair, found at CertaintyLevel::exact, its exact time: adjacent doubles toi and
   // toi_hi.
   void sharpen(PairKind kind, PairResult& result) const;
+  bool times_are_exact() const { return in_.exact_times && in_.options.certainty == CertaintyLevel::exact; }
   const char* kernel_name() const { return kernels_->name; }
 
  private:
@@ -88,26 +107,58 @@ class NarrowPhase {
     IdPair pair;
     const KernelPairs& input;
     int row;
+    const int (&vertices() const)[4] { return input.vertices[row]; }
+    double separation() const { return input.separation[row]; }  // model length
   };
+  struct Bounds;  // of a pair's distance at one time, and a direction that shows it (pair_start.cpp)
 
-  KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, double horizon,
+  KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon,
                       NarrowPhaseScratch& scratch) const;
+  // Of the exact motion.
+  static KernelPairs without_storing(KernelPairs pairs, double horizon);
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
-  void note_kept(const Case& c, const KernelResult& found, NarrowPhaseStats& stats) const;
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   Corners corners_of(const Case& c) const;
   double distance_at(const Case& c, double t) const;  // scaled upper bound
+  void advance(const Case& c, const KernelResume* resume, KernelResult& result) const;
   KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
-  bool settles() const;  // whether exact arithmetic is asked at all
-  bool settles_completely() const;
+  KernelResult carry_on(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats, bool& searched) const;
+
+  // Exact arithmetic (settle.cpp).
+  bool settles(const Case& c) const;  // whether it is asked at all
+  bool settles_completely(const Case& c) const;
   ExactPair exact_pair(PairKind kind, const int (&vertices)[4]) const;
   ExactAnswer settle(const Case& c, const KernelResult& found, double from) const;
+  bool touches_at_start(const Case& c) const;
   bool seen_within_separation(const Case& c, const KernelResult& found) const;
-  // The pair is apart, or parting, until `from`.
+
+  // The exact motion of one pair, which is apart, or parting, until `from`.
   void finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
               std::vector<PairResult>& out) const;
-  void finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
-                      const ExactAnswer& truth, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+  void finish_initial(const Case& c, const Corners& corners, const KernelResult& found, const ExactAnswer& truth,
+                      NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+
+  // Its start (pair_start.cpp).
+  bool is_welded(const Case& c) const;
+  bool stays(const Case& c) const;  // neither primitive moves
+  Bounds bounds_at(const Case& c, const Corners& corners, double t) const;
+  Parting find_parting_of(const Case& c, const Corners& corners, double separation, bool touching) const;
+  KernelResult advance_from(const Case& c, const Corners& corners, const Bounds& at, double t, double kept) const;
+
+  // Steps that are stored (stored_step.cpp).
+  struct StoredLimit;
+  double storing_rounding(const Case& c, const Corners& corners) const;  // scaled
+  void finish_stored(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
+                     std::vector<PairResult>& out) const;
+  StoredLimit limit_from_start(const Case& c, const Case& exact, NarrowPhaseStats& stats,
+                               std::vector<PairResult>& found) const;
+  StoredLimit limit_of_small_gap(const Case& c, const Corners& corners, const Bounds& start,
+                                 const std::vector<PairResult>& found, NarrowPhaseStats& stats) const;
+  StoredLimit limit_after_parting(const Case& c, const Corners& corners, const Bounds& start,
+                                  NarrowPhaseStats& stats) const;
+  double clear_time(const Case& c, const Corners& corners, double wanted) const;
+  void decide(const Case& c, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+  void note_kept(const Case& c, double share, NarrowPhaseStats& stats) const;
 
   NarrowPhaseInput in_;
   const KernelTable* kernels_;

@@ -1,16 +1,16 @@
 // The narrow phase asks exact arithmetic, or looks for a witness, whether a pair that is not certified free
 // is a contact.
+#include <algorithm>
+
 #include "narrowphase/narrow_phase.hpp"
 
 namespace onset {
 
-// A share of the gap to keep is a separation, and those are compared in doubles.
-bool NarrowPhase::settles() const {
-  return in_.options.certainty != CertaintyLevel::conservative && in_.keep == 0 && in_.rounding == 0 &&
-         in_.options.min_separation == 0 && in_.mesh.thickness.empty();
+bool NarrowPhase::settles(const Case& c) const {
+  return in_.options.certainty != CertaintyLevel::conservative && c.separation() == 0;
 }
-bool NarrowPhase::settles_completely() const {
-  return settles() && in_.options.certainty == CertaintyLevel::exact;
+bool NarrowPhase::settles_completely(const Case& c) const {
+  return settles(c) && in_.options.certainty == CertaintyLevel::exact;
 }
 
 ExactPair NarrowPhase::exact_pair(PairKind kind, const int (&vertices)[4]) const {
@@ -22,12 +22,12 @@ ExactPair NarrowPhase::exact_pair(PairKind kind, const int (&vertices)[4]) const
 // unknown: not asked, or too dear. Contacts before `from` > 0 do not count. Within rounding of touching at the
 // start, doubles cannot tell a contact soon after from parting: those are asked whatever the certainty.
 ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double from) const {
-  if (found.verdict == Verdict::initial && from == 0 && c.input.separation[c.row] == 0) {
+  if (found.verdict == Verdict::initial && from == 0 && c.separation() == 0) {
     const auto time = exact_first_contact(exact_pair(c.kind, c.input.vertices[c.row]));
     return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
   }
-  if (!settles()) return {Answer::unknown, {}};
-  const bool complete = settles_completely();
+  if (!settles(c)) return {Answer::unknown, {}};
+  const bool complete = settles_completely(c);
   if (!complete && found.verdict == Verdict::budget)
     return {Answer::unknown, {}};  // as little as was asked for
   const ExactPair pair = exact_pair(c.kind, c.input.vertices[c.row]);
@@ -47,11 +47,19 @@ ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double
   return {Answer::yes, *exact_first_contact(pair)};
 }
 
+// Both primitives where they start.
+bool NarrowPhase::touches_at_start(const Case& c) const {
+  ExactPair pair = exact_pair(c.kind, c.vertices());
+  std::copy_n(pair.t0, 4, pair.t1);
+  return exactly_touches(pair);
+}
+
 void NarrowPhase::sharpen(PairKind kind, PairResult& result) const {
-  if (!settles_completely()) return;
-  const std::array<int, 4> v = pair_vertices(in_.mesh, kind, result.pair);
-  const int vertices[4] = {v[0], v[1], v[2], v[3]};
-  const auto time = exact_first_contact(exact_pair(kind, vertices));
+  NarrowPhaseScratch scratch;
+  const KernelPairs one = prepare(kind, &result.pair, 1, {}, scratch);
+  const Case c{kind, result.pair, one, 0};
+  if (!settles_completely(c)) return;
+  const auto time = exact_first_contact(exact_pair(kind, c.vertices()));
   if (!time) return;
   if (result.outcome == Outcome::contact) result.toi = result.step_limit = time->lo;
   result.toi_hi = time->hi;

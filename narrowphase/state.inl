@@ -69,7 +69,10 @@ inline void set_cubic(State<V, K>& s, const V (&e1)[2][3], const V (&e2)[2][3], 
   const auto size = [&](const V(&n)[3]) {
     return maximum_norm ? (abs(n[0]) + abs(n[1])) + abs(n[2]) : sqrt(dot(n, n));
   };
-  s.n_largest = max(size(n00), max(size(middle), size(n11))) * V::all(1 + 0x1p-46) + V::all(0x1p-500);
+  // A component of n00 errs by 2 + 1 + 1 = 4u of `product`, of half the sum of two by 5u, however small it is (nearly parallel edges);
+  // both norms are below the sum of components, and 6u covers second order. Relative to itself a norm errs by 4u.
+  s.n_largest = max(size(n00), max(size(middle), size(n11))) * V::all(1 + 0x1p-46) +
+                V::all(6 * kU) * ((product[0] + product[1]) + product[2]) + V::all(0x1p-500);
 }
 
 // Corners, scale, bounds and cubic of four pairs.

@@ -15,7 +15,7 @@ ClosePairs close_pairs(const Mesh& mesh, const Positions& x, double d_hat, const
   in_arena(options.threads, [&] {
     Stats stats;
     Budget budget(options);
-    const Scene scene(mesh, x, x, options, BoxTest::motion, stats, budget, d_hat);
+    const Scene scene(mesh, x, x, options, Scene::Use::close, stats, budget, d_hat);
     r.outcome = scene.motion.status;
     r.vertex = scene.motion.bad_vertex;
     if (r.outcome == Outcome::free && !scene.broad) r.outcome = budget.outcome();

@@ -46,7 +46,12 @@ struct LineSearch::Held {
   HeldPairs pairs, near;         // that may limit a step; that may come within d_hat on the way
 
   NarrowPhaseInput input() const {
-    return {mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, options, keep, rounding};
+    NarrowPhaseInput r{mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, options};
+    r.stored = true;
+    r.keep = keep;
+    r.rounding = rounding;
+    r.exact_times = options.certainty == CertaintyLevel::exact;
+    return r;
   }
   bool fill(Budget& budget);
   const PairSource& source(const HeldPairs& held) const {
@@ -66,8 +71,7 @@ bool LineSearch::Held::fill(Budget& budget) {
   Options beyond = options;
   beyond.min_separation = euclidean_reach(mesh.data(), options, d_hat, rounding);
   beyond.norm = Norm::euclidean;
-  const NarrowPhase far(
-      {mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, beyond, 0, 0});
+  const NarrowPhase far({mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, beyond});
   holders.push_back({far, near});
   return hold(*scene->broad, holders, most, budget);
 }
@@ -94,11 +98,12 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
   in_arena(options.threads, [&] {
     const Positions end(x_t1.data(), x_t0.rows());
     Budget budget(h.options);
-    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, BoxTest::motion, h.start.stats, budget, d_hat);
+    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, Scene::Use::stored_step, h.start.stats, budget, d_hat);
     h.start.outcome = h.scene->motion.status;
     h.start.vertex = h.scene->motion.bad_vertex;
     if (h.start.outcome != Outcome::free) return;
-    h.rounding = rounding_of_distances(h.scene->motion);
+    h.rounding = h.scene->rounding;
+    h.start.rounding = reported_rounding(h.scene->motion);
     const bool held = h.scene->broad && h.fill(budget);
     h.start.outcome = budget.outcome();
     if (held) h.scene->give_back_broad();
@@ -117,29 +122,24 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   LineSearchStep r;
   r.result = h.start;
   r.keep = h.keep;
-  r.rounding = h.rounding;
+  r.rounding = h.start.rounding;
   if (h.start.outcome != Outcome::free) return r;
   in_arena(h.options.threads, [&] {
     const Clock clock;
     Budget budget(h.options);
     const PassResult pass = run_pass(h.source(h.pairs), NarrowPhase(h.input()), Keep::limiting, upper, budget);
     copy_counts(pass, r.result.stats);
-    limit_step(h.mesh, pass, budget, r.result);
+    limit_step(h.mesh, pass, budget, upper, r.result);
     r.result.stats.seconds_narrow = r.result.stats.seconds_total = clock.seconds();
     for (const auto& [kind, stats] :
          {std::pair{PairKind::vertex_face, pass.vertex_face}, {PairKind::edge_edge, pass.edge_edge}}) {
       if (stats.least_kept >= r.keep) continue;
       r.keep = std::max(stats.least_kept, 0.0);
       r.keep_reduced = true;
-      r.assured = stats.least_kept >= 0;
       r.closest = to_pair(h.mesh, {kind, {stats.closest, 0, 0, 0, Outcome::free}});
     }
+    r.assured = r.result.outcome != Outcome::below_rounding || r.result.step > 0;
   });
-  if (r.result.step >= upper) {
-    r.result.step = upper;
-    r.result.outcome = Outcome::free;
-    r.result.limiting = Pair{};
-  }
   return r;
 }
 

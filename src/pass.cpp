@@ -1,6 +1,7 @@
 #include "src/pass.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "base/parallel.hpp"
@@ -65,6 +66,7 @@ class Pass {
         budget_(budget),
         stride_(stride),
         bounds_(bounds),
+        first_horizon_(horizon),
         horizon_(horizon),
         wave_horizon_(horizon) {
     budget.begin_pass(count(PairKind::vertex_face) + count(PairKind::edge_edge));
@@ -85,7 +87,8 @@ class Pass {
     }
   }
 
-  std::vector<FoundPair> take() { return keep_ == Keep::all ? sorted(parts_, held_) : std::move(first_); }
+  std::vector<FoundPair> take() { return sorted(parts_, held_); }
+  const Limits& limits() const { return limits_; }
 
  private:
   struct Task {
@@ -93,7 +96,8 @@ class Pass {
     PairKind kind;
     NarrowPhaseStats& stats;  // of the pass
     NarrowPhaseScratch scratch;
-    std::vector<PairResult> results;
+    std::vector<PairResult> results;  // where all are kept
+    Limits limits;
 
     static void consume(void* context, const IdPair* pairs, std::size_t count) {
       auto& task = *static_cast<Task*>(context);
@@ -103,7 +107,7 @@ class Pass {
     }
     void process(const IdPair* pairs, std::size_t count) {
       const std::size_t known = results.size();
-      pass.narrow_.process(kind, pairs, count, pass.horizon(), scratch, results);
+      pass.narrow_.process(kind, pairs, count, {pass.first_horizon_, pass.horizon()}, scratch, results);
       if (pass.bounds_.whole != nullptr) keep_candidates_of(*pass.bounds_.whole, known);
       if (results.size() == known) return;
       scratch.stats.contacts += std::int64_t(results.size() - known);
@@ -111,7 +115,7 @@ class Pass {
       if (pass.keep_ == Keep::all)
         pass.shrink_to_window(results, known);
       else
-        pass.shrink_horizon(*this);
+        pass.take_limits(*this);
       if (pass.is_bounded() && results.size() >= kHeldByATask) pass.merge(*this);
     }
     void keep_candidates_of(const BroadPhaseInput& whole, std::size_t first) {
@@ -127,7 +131,7 @@ class Pass {
   void run(PairKind kind, std::size_t from, std::size_t to, NarrowPhaseStats& stats) {
     parallel_ranges(to - from, kBlocksATask, [&](std::size_t first, std::size_t last) {
       if (ended()) return;
-      Task task{*this, kind, stats, {}, {}};
+      Task task{*this, kind, stats, {}, {}, {}};
       if (stride_ == 1)
         pairs_.traverse(kind, from + first, from + last, {&task, &Task::consume});
       else
@@ -139,7 +143,7 @@ class Pass {
   }
 
   bool ended() const {
-    return budget_.spent() || (keep_ == Keep::any && horizon_.load(std::memory_order_relaxed) < 1);
+    return budget_.spent() || (keep_ == Keep::any && found_any_.load(std::memory_order_relaxed));
   }
   bool is_bounded() const { return bounds_.most < std::numeric_limits<std::size_t>::max(); }
   double horizon() const {
@@ -155,15 +159,12 @@ class Pass {
     for (std::size_t i = first; i < results.size(); ++i) shrink_to(latest_time(results[i]) + bounds_.window);
   }
 
-  // Keeps the task's first limiting pair only.
-  void shrink_horizon(Task& task) {
-    std::size_t best = 0;
-    const auto as_found = [&](std::size_t i) { return FoundPair{task.kind, task.results[i]}; };
-    for (std::size_t i = 1; i < task.results.size(); ++i)
-      if (limits_before(as_found(i), as_found(best))) best = i;
-    task.results[0] = task.results[best];
-    task.results.resize(1);
-    shrink_to(task.results[0].step_limit);
+  void take_limits(Task& task) {
+    for (const PairResult& r : task.results) task.limits.add({task.kind, r});
+    task.results.clear();
+    if (!task.limits.contact) return;
+    shrink_to(task.limits.contact->result.step_limit);
+    found_any_.store(true, std::memory_order_relaxed);
   }
 
   // Hands over what the task has, results and statistics.
@@ -173,12 +174,10 @@ class Pass {
     task.scratch.stats = {};
     if (keep_ == Keep::all)
       merge_all(task);
-    else if (!task.results.empty())
-      merge_first({task.kind, task.results[0]});
+    else
+      limits_.add(task.limits);
     task.results.clear();
-  }
-  void merge_first(const FoundPair& f) {
-    if (first_.empty() || limits_before(f, first_[0])) first_.assign(1, f);
+    task.limits = {};
   }
   void merge_all(Task& task) {
     if (task.results.empty()) return;
@@ -207,12 +206,14 @@ class Pass {
   Budget& budget_;
   const std::size_t stride_;
   const PassBounds bounds_;
+  const double first_horizon_;
   std::atomic<double> horizon_;
+  std::atomic<bool> found_any_{false};
   double wave_horizon_;
   std::mutex mutex_;
-  std::vector<FoundPair> first_;  // unless all are kept: the first in the order of limits_before
-  std::vector<Part> parts_;       // where all are kept
-  std::size_t held_ = 0;          // in parts_
+  Limits limits_;            // unless all are kept
+  std::vector<Part> parts_;  // where all are kept
+  std::size_t held_ = 0;     // in parts_
 };
 
 }  // namespace
@@ -226,6 +227,32 @@ bool limits_before(const FoundPair& x, const FoundPair& y) {
                                                     : before(x, y);
 }
 
+namespace {
+
+bool stored_before(const FoundPair& x, const FoundPair& y) {
+  return x.result.stored_limit != y.result.stored_limit ? x.result.stored_limit < y.result.stored_limit
+                                                        : limits_before(x, y);
+}
+bool clears_later(const FoundPair& x, const FoundPair& y) {
+  return x.result.clear_from != y.result.clear_from ? x.result.clear_from > y.result.clear_from : before(x, y);
+}
+template <class Before>
+void keep_first(std::optional<FoundPair>& first, const FoundPair& other, Before&& comes_before) {
+  if (!first || comes_before(other, *first)) first = other;
+}
+
+}  // namespace
+
+void Limits::add(const FoundPair& f) {
+  if (f.result.step_limit <= 1) keep_first(contact, f, limits_before);
+  if (f.result.stored_limit <= 1) keep_first(stored, f, stored_before);
+  if (f.result.clear_from > 0) keep_first(clear, f, clears_later);
+}
+void Limits::add(const Limits& other) {
+  for (const std::optional<FoundPair>* f : {&other.contact, &other.stored, &other.clear})
+    if (*f) add(**f);
+}
+
 bool earlier(const FoundPair& x, const FoundPair& y) {
   return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);
 }
@@ -236,7 +263,10 @@ PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep kee
   Pass pass(pairs, narrow, keep, horizon, budget, stride, bounds);
   pass.run(PairKind::vertex_face, result.vertex_face);
   pass.run(PairKind::edge_edge, result.edge_edge);
-  result.found = pass.take();
+  if (keep == Keep::all)
+    result.found = pass.take();
+  else
+    result.limits = pass.limits();
   return result;
 }
 
@@ -267,7 +297,7 @@ void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats) {
   if (pair.a >= 0) stats.worst = {kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
 }
 
-void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, StepResult& r) {
+void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, StepResult& r) {
   note_worst(mesh, pass, r.stats);
   if (budget.outcome() != Outcome::free) {
     r.step = 0;
@@ -275,15 +305,28 @@ void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, 
     r.stats.looked_at = budget.done();
     return;
   }
-  r.step = 1;
-  if (pass.found.empty() || pass.found[0].result.step_limit >= 1) return;
-  const PairResult& limiting = pass.found[0].result;
-  r.step = limiting.step_limit;
-  // A pair that parts at the start and is met again later limits the step as a contact.
-  r.outcome = limiting.outcome == Outcome::initial_separating ? Outcome::contact : limiting.outcome;
-  r.limiting = to_pair(mesh, pass.found[0]);
-  r.certainty = limiting.limit_certainty;
-  if (limiting.outcome != Outcome::initial_separating) r.toi_hi = limiting.toi_hi;
+  const Limits& limits = pass.limits;
+  r.step = upper;
+  r.toi = INFINITY;
+  if (limits.contact) {
+    const PairResult& contact = limits.contact->result;
+    r.toi = contact.step_limit;
+    r.certainty = contact.limit_certainty;
+    if (contact.outcome != Outcome::initial_separating) r.toi_hi = contact.toi_hi;
+  }
+  const FoundPair* limiting = nullptr;
+  if (limits.stored && limits.stored->result.stored_limit < upper) {
+    limiting = &*limits.stored;
+    r.step = limiting->result.stored_limit;
+    r.outcome = limiting->result.outcome;
+    // A pair that parts at the start and is met again later limits the step as a contact.
+    if (r.outcome == Outcome::initial_separating) r.outcome = Outcome::contact;
+  }
+  if (limits.clear && limits.clear->result.clear_from > r.step) limiting = &*limits.clear, r.step = 0;
+  if (limiting == nullptr) return;
+  // What starts apart, or parts, is held back at once by rounding alone.
+  if (r.step == 0 && limiting->result.outcome != Outcome::initial_contact) r.outcome = Outcome::below_rounding;
+  r.limiting = to_pair(mesh, *limiting);
 }
 
 }  // namespace onset

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "broadphase/broad_phase.hpp"
@@ -21,16 +22,25 @@ struct FoundPair {
 
 // Ordered by (kind, a, b): the order of the active set.
 bool before(const FoundPair& x, const FoundPair& y);
-// Ordered by (step_limit, kind, a, b): the order of limiting pairs.
+// Ordered by (step_limit, kind, a, b).
 bool limits_before(const FoundPair& x, const FoundPair& y);
 
-// What a pass keeps. all: every pair that is not free. limiting: the first in the order of limits_before
-// only, and pairs certified beyond the best so far are dropped on the way. any: as limiting, and the pass
-// ends early.
+// What the pairs found say about a step, in no order of theirs.
+struct Limits {
+  std::optional<FoundPair> contact;  // the first in the order of limits_before, at 1 at the latest
+  std::optional<FoundPair> stored;   // the first by (stored_limit, step_limit, kind, a, b), at 1 at the latest
+  std::optional<FoundPair> clear;    // the one with the last clear_from > 0, of these the first
+  void add(const FoundPair& found);
+  void add(const Limits& other);
+};
+
+// What a pass keeps. all: every pair that is not free. limiting: the limits only, and pairs certified beyond the first contact
+// so far are dropped on the way. any: as limiting, and the pass ends at the first contact.
 enum class Keep { all, limiting, any };
 
 struct PassResult {
-  std::vector<FoundPair> found;  // all: sorted by `before`; else at most one
+  std::vector<FoundPair> found;  // all: sorted by `before`
+  Limits limits;                 // limiting, any
   NarrowPhaseStats vertex_face, edge_edge;
 };
 
@@ -44,7 +54,8 @@ struct PassBounds {
   const BroadPhaseInput* whole = nullptr;
 };
 
-// `horizon`: pairs certified apart beyond it may be dropped. `stride`: only every stride-th block of pairs is
+// `horizon`: pairs certified apart beyond it may be dropped. The culls keep to it, advancement to what it shrinks to: a pair that
+// spends its checks far from contact is then reported, or not, for any number of threads. `stride`: only every stride-th block of pairs is
 // looked at. Ends early where the budget is spent: what is found is then true, but not all.
 PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
                     Budget& budget, std::size_t stride = 1, const PassBounds& bounds = {});
@@ -58,8 +69,7 @@ bool earlier(const FoundPair& x, const FoundPair& y);
 void copy_counts(const PassResult& pass, Stats& stats);
 Pair to_pair(const Mesh& mesh, const FoundPair& found);
 void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats);
-// The step, outcome and limiting pair that follow from a pass that kept the limiting pair: none with a spent
-// budget.
-void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, StepResult& result);
+// The step in [0, upper], outcome and limiting pair that follow from a pass that kept the limits: none with a spent budget.
+void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, StepResult& result);
 
 }  // namespace onset

@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "base/primitive_filter.hpp"
+#include "broadphase/motion_box.hpp"
 #include "src/checked_options.hpp"
 #include "src/contact_rows.hpp"
 #include "src/pass.hpp"
@@ -19,25 +20,31 @@ namespace {
 constexpr std::size_t kSampledBlocks = 64;  // one in so many
 constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cost more than they spare
 
-// Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that
-// horizon, and the whole is passed once with a horizon that shrinks further. A pair reported at t is within d
-// + tolerance then, so boxes that are wider by the tolerance on [0, horizon] lose none that is reported by
-// then: the result is the minimum of the active set.
+// Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that horizon, and the whole is
+// passed once with a horizon that shrinks further. What is reported at t is within Scene::reach of what it must keep then, unless it
+// spends its checks, so boxes that are wider by that on [0, horizon] lose none that is reported by then: the result is the minimum of
+// the active set. What the sample found counts whatever the boxes say.
 //
-// Within a window: whatever the sample finds bounds the earliest contact, and the window begins there.
-double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options,
-                         Keep keep, Budget& budget, const Stats& stats) {
+// Within a window: whatever the sample finds bounds the earliest contact, and the window begins there. A sample out of checks says
+// too little for that.
+double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
+                         Budget& budget, Limits& sampled) {
   if (!narrow.uses_horizon()) return 1;
-  const PassResult sample = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, kSampledBlocks);
-  if (sample.found.empty()) return 1;
-  const PairResult& first = sample.found[0].result;
+  sampled = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, kSampledBlocks).limits;
+  if (!sampled.contact) return 1;
+  const PairResult& first = sampled.contact->result;
+  if (keep == Keep::all && first.outcome == Outcome::budget) return 1;
   // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
-  const bool exact = narrow.times_are_exact() && first.step_limit < 1;
-  const double limit = exact ? std::nextafter(first.step_limit, 1) : first.step_limit;
+  const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
   const double horizon = keep == Keep::all ? latest_time(first) + options.window : limit;
   if (horizon > kShrinksUpTo) return std::min(horizon, 1.0);
-  scene.broad->refit(
-      broad_phase_input(mesh.data(), scene.motion, options, stats.tolerance, horizon, BoxTest::motion));
+  BroadPhaseInput shrunk =
+      keep == Keep::all
+          ? broad_phase_input(mesh.data(), scene.motion, options, scene.reach, horizon, BoxTest::motion)
+          : *scene.tree;
+  shrunk.horizon = horizon;
+  shrunk.test = BoxTest::motion;
+  scene.broad->refit(shrunk);
   return horizon;
 }
 
@@ -64,20 +71,34 @@ PassBounds bounds(const Options& options) {
   return {options.window, limited ? most_contacts(options) + 1 : std::numeric_limits<std::size_t>::max()};
 }
 
-PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget,
-               Stats& stats) {
+// Whether the boxes of the whole step, as an active set has them, let a pair meet.
+bool is_candidate(const void* scene, PairKind kind, IdPair pair) {
+  return boxes_pass(*static_cast<const Scene*>(scene)->whole, kind, pair);
+}
+
+PassResult run(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget, Stats& stats) {
   const double begun = scene.clock.seconds();
-  const bool exact_times = options.certainty == CertaintyLevel::exact && keep != Keep::all;
+  const PassBounds limited = keep == Keep::all ? bounds(options) : PassBounds{};
+  NarrowPhaseInput input{mesh.data(), scene.motion, stats.tolerance, stats.extent, options};
+  // All times in one order are exact, or none is.
+  input.exact_times = options.certainty == CertaintyLevel::exact &&
+                      (keep != Keep::all || limited.most < std::numeric_limits<std::size_t>::max());
   // A pass over all vertices in every call is worth it unless most of them are static.
-  const bool mostly_static =
-      2 * mesh.data().filter->static_ids.size() > std::size_t(mesh.data().num_vertices);
-  const NarrowPhase narrow(
-      {mesh.data(), scene.motion, stats.tolerance, stats.extent, options, 0, 0, exact_times, !mostly_static});
+  input.for_many = 2 * mesh.data().filter->static_ids.size() <= std::size_t(mesh.data().num_vertices);
+  const PairPredicate contacts{&scene, is_candidate};
+  if (keep == Keep::limiting) {
+    input.stored = true;
+    input.rounding = scene.rounding;
+    input.contacts = &contacts;
+  }
+  const NarrowPhase narrow(input);
   const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
-  const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, stats) : 1;
-  PassBounds limits = keep == Keep::all ? bounds(options) : PassBounds{};
-  if (horizon <= kShrinksUpTo) limits.whole = &*scene.whole;
+  Limits sampled;
+  const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, sampled) : 1;
+  PassBounds limits = limited;
+  if (horizon <= kShrinksUpTo) limits.whole = &*scene.tree;
   PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1, limits);
+  if (keep == Keep::limiting) pass.limits.add(sampled);
   if (keep == Keep::all) sharpen_earliest(narrow, pass.found);
   copy_counts(pass, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;
@@ -89,12 +110,14 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
                          const Options& options, Keep keep) {
   StepResult r;
   Budget budget(options);
-  Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, r.stats, budget);
+  const Scene::Use use = keep == Keep::limiting ? Scene::Use::stored_step : Scene::Use::contacts;
+  Scene scene(mesh, x_t0, x_t1, options, use, r.stats, budget);
   r.outcome = scene.motion.status;
   r.vertex = scene.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
   const PassResult pass = scene.broad ? run(mesh, scene, options, keep, budget, r.stats) : PassResult{};
-  limit_step(mesh, pass, budget, r);
+  limit_step(mesh, pass, budget, 1, r);
+  r.rounding = reported_rounding(scene.motion);
   r.stats.seconds_total = scene.clock.seconds();
   return r;
 }
@@ -114,7 +137,7 @@ bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Posit
   check(options);
   StepResult r;
   in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::any); });
-  return r.outcome == Outcome::free;
+  return r.outcome == Outcome::free && r.toi > 1;
 }
 
 namespace {
@@ -149,7 +172,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
   ActiveSet set;
   in_arena(options.threads, [&] {
     Budget budget(options);
-    Scene scene(mesh, x_t0, x_t1, options, BoxTest::motion, set.stats, budget);
+    Scene scene(mesh, x_t0, x_t1, options, Scene::Use::contacts, set.stats, budget);
     set.outcome = scene.motion.status;
     set.vertex = scene.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
@@ -168,12 +191,16 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
 
 namespace {
 
-// Nothing is listed any more once `room` (pairs) is used up.
-void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::atomic<std::int64_t>& room,
-                     Budget& budget, std::vector<std::array<int, 2>>& pairs, std::int64_t& count) {
+// Nothing is listed any more once `room` (pairs) is used up. `welds`: where it is not null, seams of it are left out.
+void list_candidates(const Mesh& mesh, const BroadPhase& broad, PairKind kind, bool list, const Motion* welds,
+                     std::atomic<std::int64_t>& room, Budget& budget, std::vector<std::array<int, 2>>& pairs,
+                     std::int64_t& count) {
   std::mutex mutex;
   struct Task {
+    const MeshData& mesh;
+    PairKind kind;
     bool list;
+    const Motion* welds;
     std::atomic<std::int64_t>& room;
     Budget& budget;
     std::int64_t count;
@@ -181,13 +208,21 @@ void list_candidates(const BroadPhase& broad, PairKind kind, bool list, std::ato
     static void consume(void* context, const IdPair* p, std::size_t n) {
       auto& task = *static_cast<Task*>(context);
       if (task.budget.spent()) return;
+      if (task.welds != nullptr) return task.consume_unwelded(p, n);
       task.count += std::int64_t(n);
       if (task.list && (task.room -= std::int64_t(n)) >= 0)
         for (std::size_t i = 0; i < n; ++i) task.pairs.push_back({p[i].a, p[i].b});
     }
+    void consume_unwelded(const IdPair* p, std::size_t n) {
+      for (std::size_t i = 0; i < n; ++i) {
+        if (is_seam(*welds, kind, pair_vertices(mesh, kind, p[i]))) continue;
+        ++count;
+        if (list && --room >= 0) pairs.push_back({p[i].a, p[i].b});
+      }
+    }
   };
   parallel_ranges(broad.blocks(kind), 64, [&](std::size_t first, std::size_t last) {
-    Task task{list, room, budget, 0, {}};
+    Task task{mesh.data(), kind, list, welds, room, budget, 0, {}};
     if (!budget.spent()) broad.traverse(kind, first, last, {&task, &Task::consume});
     if (!budget.spent()) budget.advance(last - first);
     const std::lock_guard<std::mutex> lock(mutex);
@@ -205,7 +240,7 @@ Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Pos
   Candidates c;
   in_arena(options.threads, [&] {
     Budget budget(options);
-    Scene scene(mesh, x_t0, x_t1, options, BoxTest::swept, c.stats, budget);
+    Scene scene(mesh, x_t0, x_t1, options, Scene::Use::candidates, c.stats, budget);
     c.outcome = scene.motion.status;
     c.vertex = scene.motion.bad_vertex;
     if (c.outcome != Outcome::free) return;
@@ -213,9 +248,11 @@ Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Pos
     if (scene.broad) {
       budget.begin_pass(scene.broad->blocks(PairKind::vertex_face) +
                         scene.broad->blocks(PairKind::edge_edge));
-      list_candidates(*scene.broad, PairKind::vertex_face, list, room, budget, c.vertex_face,
+      const Motion* welds = mesh.data().weld ? &scene.motion : nullptr;
+      list_candidates(mesh, *scene.broad, PairKind::vertex_face, list, welds, room, budget, c.vertex_face,
                       c.counts.vertex_face);
-      list_candidates(*scene.broad, PairKind::edge_edge, list, room, budget, c.edge_edge, c.counts.edge_edge);
+      list_candidates(mesh, *scene.broad, PairKind::edge_edge, list, welds, room, budget, c.edge_edge,
+                      c.counts.edge_edge);
     }
     c.outcome = room < 0 ? Outcome::out_of_memory : budget.outcome();
     if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = {};

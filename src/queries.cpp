@@ -47,11 +47,11 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
       for (const double x : corner) largest = std::max(largest, std::fabs(x));
   const double extent = largest * corners.unit;
   const bool exact_times = options.certainty == CertaintyLevel::exact;
-  const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, extent), extent, options, 0, 0, exact_times});
+  const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, extent), extent, options, exact_times});
   NarrowPhaseScratch scratch;
   std::vector<PairResult> found;
   const IdPair pair = kind == PairKind::vertex_face ? IdPair{0, 0} : IdPair{0, 1};
-  narrow.process(kind, &pair, 1, 1.0, scratch, found);
+  narrow.process(kind, &pair, 1, {}, scratch, found);
   r.checks = scratch.stats.checks;
   if (found.empty()) return r;
   r.outcome = found[0].outcome;

@@ -38,19 +38,33 @@ void check_close(const Mesh& mesh, const ClosePairs& close) {
 
 double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0), dx(v, 1), dx(v, 2)); }
 
-// What the lemma gives without a look at any pair. dx is off by a rounding, which safe_step's factor covers.
-double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close) {
+// What the lemma gives without a look at any pair, each keeping a share of its gap: distances fall by the rest of it at most. dx is
+// off by a rounding, which safe_step's factor covers.
+double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close, double keep) {
   std::vector<double> dx;
   for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
     for (int a = 0; a < 3; ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
-  return safe_step(safe_distances(mesh, x_t0, close), Positions(dx.data(), x_t0.rows()));
+  std::vector<double> r = safe_distances(mesh, x_t0, close);
+  for (double& of_vertex : r) of_vertex *= (1 - keep) * (1 - 0x1p-50);
+  return safe_step(r, Positions(dx.data(), x_t0.rows()));
+}
+
+// Pairs that are not listed are beyond d_hat of their separation, and close no faster than both of their sides move.
+void bound_others(double d_hat, double moved, double rounding, double keep, StepResult& r) {
+  const auto until = [&](double room) { return std::max(0.0, room) / (2 * moved) * (1 - 0x1p-48); };
+  if (const double contact = until(d_hat - rounding); contact < 1) r.toi = std::min(r.toi, contact);
+  const double bound = until((1 - keep) * d_hat - 2 * rounding);
+  if (bound >= r.step) return;
+  r.step = bound;
+  r.outcome = Outcome::free;
+  r.limiting = Pair{};
 }
 
 }  // namespace
 
-// fl(x + fl(s dx)) errs per coordinate by u |s dx| + u |x + s dx| (1 + u), as a vector by less than 1.8u (M +
-// 2r) with M the largest coordinate and 2r < d_hat: 2^-52 (M + d_hat) covers it. Relative errors of computed
-// norms and products are a few u; 1 - 2^-48 covers them and makes the bound strict.
+// Storing errs as base/motion.hpp says, in half the distance by half of that bound; largest is M, or d_hat where that is more, and x
+// moves by less than d_hat. Relative errors of computed norms and products are a few u; 1 - 2^-48 covers them and makes the bound
+// strict. Half of a subnormal gap rounds by 2^-1075, which is taken off.
 std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close) {
   check_rows("x", x, mesh.num_vertices());
   check_close(mesh, close);
@@ -60,9 +74,9 @@ std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const C
   double largest = close.d_hat;
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
     for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x(v, a)));
-  const double rounding = 0x1p-51 * largest;  // >= 2^-52 (M + d_hat)
+  const double rounding = kStoring * largest;  // of any order of operations, not only x + s dx
   for (double& of_vertex : r)
-    of_vertex = std::max(0.0, (0.5 * of_vertex * (1 - 0x1p-48) - rounding) * (1 - 0x1p-52));
+    of_vertex = std::max(0.0, (0.5 * of_vertex * (1 - 0x1p-48) - rounding) * (1 - 0x1p-52) - 0x1p-1072);
   return r;
 }
 
@@ -78,8 +92,9 @@ double safe_step(const std::vector<double>& r, const Positions& dx) {
 }
 
 StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                                const ClosePairs& close, const Options& options) {
+                                const ClosePairs& close, const Options& options, double keep) {
   check(options);
+  check_keep(keep);
   check_close(mesh, close);
   StepResult r;
   in_arena(options.threads, [&] {
@@ -88,11 +103,12 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     const Motion motion = make_motion(mesh.data().num_vertices, x_t0, x_t1);
     HeldPairs held;
     for (const ClosePair& p : close) held.of(p.kind).push_back({p.a, p.b});
-    r = step_of(mesh, motion, held, options, 0, budget);
+    r = step_of(mesh, motion, held, options, keep, budget);
     if (motion.status != Outcome::free) return;
     if (budget.outcome() != Outcome::free) {
-      r.step = step_by_gaps(mesh, x_t0, x_t1, close);
+      r.step = step_by_gaps(mesh, x_t0, x_t1, close, keep);
       if (r.step == 1) r.outcome = Outcome::free;
+      r.toi = r.step;
       r.stats.seconds_total = clock.seconds();
       return;
     }
@@ -101,13 +117,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
       const double *a = motion.t0(v), *b = motion.t1(v);
       moved = std::max(moved, std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
     }
-    const double bound =
-        std::max(0.0, close.d_hat - rounding_of_distances(motion)) / (2 * moved) * (1 - 0x1p-48);
-    if (moved > 0 && bound < r.step) {
-      r.step = bound;
-      r.outcome = Outcome::free;
-      r.limiting = Pair{};
-    }
+    if (moved > 0) bound_others(close.d_hat, moved, rounding_of_distances(motion), keep, r);
     r.stats.seconds_total = clock.seconds();
   });
   return r;

@@ -6,6 +6,7 @@
 #include "base/dispatch.hpp"
 #include "base/parallel.hpp"
 #include "base/spares.hpp"
+#include "narrowphase/narrow_phase.hpp"
 #include "src/checked_options.hpp"
 #include "src/close_set.hpp"
 
@@ -54,30 +55,36 @@ Scene::~Scene() {
   if (motion.rows_last) motion.fixed->give_back(motion.axes, std::move(motion.x));
 }
 
-Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
-             BoxTest test, Stats& stats, Budget& budget, double d_hat) {
+void Scene::widen(double by) { tree->inflation = (tree->inflation + std::max(by, 0.0)) * (1 + 0x1p-50); }
+
+Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use,
+             Stats& stats, Budget& budget, double d_hat) {
   const MeshData& data = mesh.data();
   motion = make_motion(data, x_t0, x_t1);
   if (data.filter) stats.plan = data.filter->plan;
   stats.threads = current_threads();
   stats.kernel = kernel_name(resolve_kernel(options.kernel));
   if (motion.status != Outcome::free) return;
-  if (test == BoxTest::motion) test = cheaper_box_test(data, motion);
+  const BoxTest test = use == Use::candidates ? BoxTest::swept : cheaper_box_test(data, motion);
   describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options, stats);
+  reach = reported_within(stats.tolerance, stats.extent);
   // With a separation, widened boxes round, and by how much depends on where the scene lies. Wider by the
   // tolerance, boxes that just miss belong to pairs farther apart than any that is reported, unless it spends
   // its checks: results do not depend on that rounding.
   const bool widened = options.min_separation > 0 || !data.thickness.empty();
-  const double margin = test != BoxTest::swept && widened ? stats.tolerance : 0;
+  const double margin = test != BoxTest::swept && widened ? reach : 0;
   whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
-  if (d_hat >= 0) {  // boxes that stay fixed are not widened: the others take all of it
-    const double near = std::max(d_hat, stats.tolerance);
-    const double reach = euclidean_reach(data, options, near, rounding_of_distances(motion));
-    const bool fixed = data.filter && data.filter->has_fixed();
-    whole->inflation = std::max(whole->inflation, fixed ? reach : 0.5 * reach);
-  }
+  tree.emplace(*whole);
+  const bool fixed = data.filter && data.filter->has_fixed();
+  const double share = fixed ? 1 : 0.5;  // boxes that stay fixed are not widened: the others take all of it
+  if (use != Use::contacts) rounding = rounding_of_distances(motion);
+  if (use == Use::stored_step) widen(share * (reach + kStoredRoundings * rounding - margin));
+  if (use == Use::candidates) widen(share * rounding);
+  if (use == Use::close || d_hat > 0)
+    tree->inflation =
+        std::max(tree->inflation, share * euclidean_reach(data, options, std::max(d_hat, reach), rounding));
   if (budget.spent()) return;
-  broad = take_broad_phase(options, *whole, budget);
+  broad = take_broad_phase(options, *tree, budget);
   if (is_kept(options.broad_phase)) spares_ = data.spares;
   slot_ = slot_of(options.broad_phase, test);
   stats.broad_phase = broad->name();

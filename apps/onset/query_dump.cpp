@@ -1,5 +1,7 @@
 #include "query_dump.hpp"
 
+#include <cmath>
+
 #include <filesystem>
 #include <fstream>
 
@@ -22,6 +24,7 @@ Json to_json(const onset::Options& o) {
           {"min_separation", o.min_separation},
           {"norm", o.norm == onset::Norm::maximum ? "maximum" : "euclidean"},
           {"max_checks", o.max_checks},
+          {"touching_may_pass_through", o.touching_may_pass_through},
           {"narrow_phase", o.narrow_phase == onset::NarrowPhaseMethod::inclusion ? "inclusion" : "auto"}};
 }
 
@@ -31,6 +34,7 @@ onset::Options to_options(const Json& json) {
   o.min_separation = json.at("min_separation").get<double>();
   o.norm = json.at("norm") == "maximum" ? onset::Norm::maximum : onset::Norm::euclidean;
   o.max_checks = json.at("max_checks").get<std::int64_t>();
+  o.touching_may_pass_through = json.value("touching_may_pass_through", false);
   if (json.at("narrow_phase") == "inclusion") o.narrow_phase = onset::NarrowPhaseMethod::inclusion;
   return o;
 }
@@ -91,9 +95,11 @@ std::optional<Expectation> read_expectation(const std::string& path) {
     const Json json = Json::parse(in);
     Expectation e;
     e.options = to_options(json.at("options"));
-    for (const Json& q : json.at("queries"))
-      e.answers.push_back({q.at("outcome").get<std::string>(), q.at("toi").get<double>(),
+    for (const Json& q : json.at("queries")) {
+      const Json& toi = q.at("toi");  // JSON has no infinity: null
+      e.answers.push_back({q.at("outcome").get<std::string>(), toi.is_null() ? INFINITY : toi.get<double>(),
                            q.at("checks").get<std::int64_t>()});
+    }
     return e;
   } catch (const Json::exception& error) {
     throw InputError(name + ": " + error.what());

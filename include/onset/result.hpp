@@ -94,7 +94,8 @@ struct StepResult {
   double step = 0;
   // The earliest contact of the exact motion: never later, infinite where there is none. With
   // CertaintyLevel::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
-  double toi = INFINITY;
+  // 0 where the call ended early and nothing is known.
+  double toi = 0;
   // Model length: bound on how much storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance. A pair
   // whose gap at x_t0 is more than twice this never gets a step of 0.
   double rounding = 0;
@@ -116,7 +117,7 @@ struct ActiveSet {
   std::vector<std::array<int, 4>> vertices;
   std::vector<double> toi;  // certified: the pair is apart on [0, toi); never later than the exact time
   std::vector<double>
-      step_limit;  // how far the pair lets a step go: toi; initial_separating: the next contact, 1 if none
+      step_limit;  // how far the pair lets a step go: toi; initial_separating: the next contact, infinite if none
   std::vector<Outcome> status;  // contact, initial_contact, initial_separating or budget
   std::vector<Certainty> certainty;
   std::vector<double> toi_hi;  // where certain: the pair has touched by then; else infinite. CertaintyLevel::exact,
@@ -150,9 +151,8 @@ struct ActiveSet {
 // One pair on its own.
 struct QueryResult {
   Outcome outcome = Outcome::free;
-  double toi = 1;  // in [0, 1]; 1 when free
-  double step_limit =
-      1;  // how far the pair lets a step go: toi; initial_separating: the next contact, 1 if none
+  double toi = INFINITY;         // in [0, 1]; infinite when free
+  double step_limit = INFINITY;  // how far the pair lets a step go: toi; initial_separating: the next contact, infinite if none
   double tolerance = 0;  // distance beyond the separation at which the pair was reported
   // As in ActiveSet. CertaintyLevel::exact, separation 0: toi and toi_hi are adjacent doubles or the same one.
   Certainty certainty = Certainty::within_tolerance;

@@ -33,10 +33,13 @@ ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 // others, by a bound of the Courant-Friedrichs-Lewy kind: they are d_hat + separation apart, no vertex moves
 // farther than s max |dx|, so by the lemma with r_i = s max |dx| they stay beyond for s < d_hat / (2 max
 // |dx|). No broad phase: O(#V + pairs). Never later than the exact first contact of the whole mesh; outcome
-// `free` with step < 1 means that the bound ended it, not a pair. Where a budget of `options` is spent, the
+// `free` with step < 1 means that the bound ended it, not a pair; toi is no later than either says. Where a budget of `options` is spent, the
 // step is that of safe_distances, which looks at no pair: > 0 unless a listed one has no gap. Throws as
 // safe_distances.
+//
+// keep in [0, 1): every pair, listed or not, keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as in
+// LineSearch, so that the next step is > 0.
 ONSET_API StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                                          const ClosePairs& close, const Options& options = {});
+                                          const ClosePairs& close, const Options& options = {}, double keep = 0.2);
 
 }  // namespace onset

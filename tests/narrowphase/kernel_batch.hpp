@@ -53,7 +53,7 @@ class KernelBatch {
     p.count = count();
     p.scale = scale_;
     p.tolerance = p.reach = tolerance;
-    p.horizon = 1;
+    p.horizon = p.cull_horizon = 1;
     p.maximum_norm = maximum_norm;
     p.max_checks = max_checks;
     return p;

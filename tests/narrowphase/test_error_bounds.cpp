@@ -267,7 +267,7 @@ struct FloatCase {
     batch.add(in.query, 0);
     if (rounded) batch.round();
     pairs = batch.pairs(1);
-    pairs.horizon = in.horizon;
+    pairs.cull_horizon = in.horizon;
     v = values(in.query.kind == PairKind::edge_edge, pairs, 0, in.wanted);
   }
 };

@@ -52,7 +52,7 @@ void expect_free(const char* what, const Query& query, double d = 0, Norm norm =
     o.min_separation = d;
     o.norm = norm;
     const QueryResult r = ccd(query, o);
-    if (r.outcome != Outcome::free || r.toi != 1)
+    if (r.outcome != Outcome::free || r.toi != INFINITY)
       FAIL_CHECK(what << "\n  " << to_text(query) << "\n  " << oracle::to_text(o, r));
   }
 }

@@ -1,43 +1,17 @@
 #include "tests/oracle/oracle.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "tests/oracle/contact.hpp"
 #include "tests/oracle/distance.hpp"
+#include "tests/oracle/exact_points.hpp"
 
 namespace onset::oracle {
-
-// The exponent of the last bit of x; large for zero.
-static int last_bit(double x) {
-  if (x == 0) return std::numeric_limits<int>::max();
-  int exponent;
-  double fraction = std::frexp(x, &exponent);
-  while (fraction != std::floor(fraction)) fraction *= 2, --exponent;
-  return exponent;
-}
-
-static Rational power_of_two(int exponent) {
-  const Rational magnitude(boost::multiprecision::cpp_int(1) << unsigned(std::abs(exponent)));
-  return exponent < 0 ? Rational(1 / magnitude) : magnitude;
-}
-
-static std::array<Vector<Rational>, 4> exact(const std::array<Point, 4>& points, const Rational& scale) {
-  std::array<Vector<Rational>, 4> x;
-  for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 3; ++k) x[i][k] = Rational(points[i][k]) * scale;
-  return x;
-}
 
 // In units that make all coordinates integers: no denominators to reduce. Contact does not depend on the
 // unit.
 static FirstContact<Rational> first_contact(const scenes::Query& query) {
-  int last = std::numeric_limits<int>::max();
-  for (const auto* points : {&query.t0, &query.t1})
-    for (const Point& p : *points)
-      for (double x : p) last = std::min(last, last_bit(x));
-  const bool all_zero = last == std::numeric_limits<int>::max();
-  const Rational scale = power_of_two(all_zero ? 0 : -last);
+  const Rational scale = unit_scale(query);
   return {query.kind, exact(query.t0, scale), exact(query.t1, scale)};
 }
 

@@ -8,10 +8,13 @@ namespace onset::oracle {
 
 std::string broken_promise(const scenes::Query&, const Options&, const QueryResult& result,
                            const Known& truth) {
-  if (!(result.toi >= 0 && result.toi <= 1)) return "toi outside [0, 1]";
+  if (result.outcome == Outcome::free) {
+    if (result.toi != INFINITY || result.step_limit != INFINITY) return "free, but not for ever";
+  } else if (!(result.toi >= 0 && result.toi <= 1)) {
+    return "toi outside [0, 1]";
+  }
   if (truth.contact && !result.collides()) return "missed a contact";
   if (truth.contact && !(result.toi <= truth.latest)) return "toi later than the contact";
-  if (result.outcome == Outcome::free && result.toi != 1) return "free, but toi is not 1";
   return {};
 }
 
@@ -34,7 +37,7 @@ static std::string wrong_outcome(const scenes::Query& query, const Options& opti
   if (outcome == Outcome::initial_separating) {
     const double rounding = 0x1p-45 * extent(query), start = distance(query, 0, options.norm).lo - rounding;
     for (double part : {0x1p-20, 0.125, 0.25, 0.5, 0.75, 1.0})
-      if (start > 0 && compare_distance(query, part * result.step_limit, start, options.norm) < 0)
+      if (start > 0 && compare_distance(query, part * std::min(1.0, result.step_limit), start, options.norm) < 0)
         return "called separating, but comes closer before step_limit";
   }
   return {};

@@ -69,9 +69,25 @@ void isolate(const Polynomial<Q>& p, const Sturm<Q>& sturm, const Q& lo, const Q
   isolate(p, sturm, middle, hi, roots);
 }
 
+// Whether the Bernstein coefficients on [0, 1] have one sign: there is no root then.
+template <class Q>
+bool of_one_sign(const Polynomial<Q>& f) {
+  const int n = f.degree();
+  for (int i = 0; i <= n; ++i) {
+    Q sum = 0, weight = 1;  // C(i, j) / C(n, j)
+    for (int j = 0; j <= i; ++j) {
+      sum += weight * f[j];
+      if (j < i) weight *= Q(i - j) / Q(n - j);
+    }
+    if (sign(sum) == 0 || sign(sum) != sign(f[0])) return false;
+  }
+  return true;
+}
+
 // The distinct roots of f != 0 in [0, 1], in increasing order.
 template <class Q>
 std::vector<Root<Q>> roots_in_unit_interval(const Polynomial<Q>& f) {
+  if (of_one_sign(f)) return {};
   const Polynomial<Q> p = square_free(f);
   const Q zero = 0, one = 1;
   std::vector<Root<Q>> roots;

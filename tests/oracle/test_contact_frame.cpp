@@ -33,7 +33,7 @@ std::array<Exact, 4> positions(const Query& q, double t) {
 double norm(const Exact& v) { return std::sqrt(oracle::round_up<Rational>(dot(v, v))); }
 
 Mesh mesh_of(PairKind kind) {
-  if (kind == PairKind::vertex_face) return Mesh(4, Eigen::MatrixXi(0, 2), Eigen::RowVector3i(1, 2, 3));
+  if (kind == PairKind::vertex_face) return Mesh(4, Eigen::RowVector3i(1, 2, 3));
   Eigen::MatrixXi edges(2, 2);
   edges << 0, 1, 2, 3;
   return Mesh(4, edges, Eigen::MatrixXi(0, 3));

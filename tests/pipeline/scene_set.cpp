@@ -51,11 +51,14 @@ bool same_bytes(const ActiveSet& a, const ActiveSet& b) {
          a.outcome == b.outcome && a.vertex == b.vertex && same_array(a.toi, b.toi) &&
          same_array(a.step_limit, b.step_limit) && same_array(a.weight, b.weight) &&
          same_array(a.normal, b.normal) && same_array(a.gap, b.gap) && same_array(a.speed, b.speed) &&
-         a.degenerate == b.degenerate;
+         a.certainty == b.certainty && same_array(a.toi_hi, b.toi_hi) && a.degenerate == b.degenerate;
 }
 
 bool same_bytes(const StepResult& a, const StepResult& b) {
-  return std::memcmp(&a.step, &b.step, sizeof a.step) == 0 && a.outcome == b.outcome &&
+  const auto numbers = [](const StepResult& r) {
+    return std::vector<double>{r.step, r.toi, r.toi_hi, r.rounding};
+  };
+  return same_array(numbers(a), numbers(b)) && a.outcome == b.outcome && a.certainty == b.certainty &&
          a.vertex == b.vertex && a.limiting.kind == b.limiting.kind && a.limiting.a == b.limiting.a &&
          a.limiting.b == b.limiting.b && a.limiting.vertices == b.limiting.vertices;
 }

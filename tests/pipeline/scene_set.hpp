@@ -23,6 +23,6 @@ scenes::Scene on_grid(scenes::Scene scene);
 
 // Whether two active sets are equal bit for bit: entries, order, outcome.
 bool same_bytes(const ActiveSet& a, const ActiveSet& b);
-bool same_bytes(const StepResult& a, const StepResult& b);  // step, outcome, limiting pair
+bool same_bytes(const StepResult& a, const StepResult& b);  // all but the statistics
 
 }  // namespace onset::tests

@@ -1,0 +1,97 @@
+// How a pair starts, looked at with more care than in lanes.
+#include <algorithm>
+#include <cmath>
+
+#include "narrowphase/closest_points.hpp"
+#include "narrowphase/kernels.hpp"
+#include "narrowphase/maximum_norm.hpp"
+#include "narrowphase/pair_decision.hpp"
+
+namespace onset {
+namespace {
+
+constexpr double kU = 0x1p-53;
+
+double least(const Corners& corners, double t, const Vec& w) {
+  double at[4][3], r = INFINITY;
+  corners.at(t, at);
+  for (int k = 0; k < corners.count; ++k) r = std::min(r, dot(w, vec(at[k])));
+  return r;
+}
+
+// The time until which w, held fixed, certifies that the pair stays beyond `wanted` from t on; t where it does not, 2 for the whole
+// rest. As fixed_certificate in the kernels: the line between the products at both ends is off by 4.25u rho, a root by 16u.
+double certified_until(const Corners& corners, const Vec& w, double norm, double wanted, double t) {
+  const double bound = 4.25 * kU * corners.rho + wanted * norm * (1 + 0x1p-49);
+  double until = 2;
+  for (int k = 0; k < corners.count; ++k) {
+    const double g0 = dot(w, vec(corners.c[0][k])) - bound, g1 = dot(w, vec(corners.c[1][k])) - bound;
+    if (!((1 - t) * g0 + t * g1 > 0)) return t;
+    if (g1 <= 0) until = std::min(until, g0 / (g0 - g1) * (1 - 0x1p-49));
+    if (g0 <= 0 && g0 / (g0 - g1) * (1 + 0x1p-49) >= t) return t;
+  }
+  return std::max(until, t);
+}
+
+}  // namespace
+
+bool NarrowPhase::is_welded(const Case& c) const {
+  const int(&v)[4] = c.vertices();
+  return in_.mesh.weld && is_seam(in_.motion, c.kind, {v[0], v[1], v[2], v[3]});
+}
+
+bool NarrowPhase::stays(const Case& c) const {
+  for (const int v : c.vertices())
+    for (int a = 0; a < 3; ++a)
+      if (in_.motion.t0(v)[a] != in_.motion.t1(v)[a]) return false;
+  return true;
+}
+
+NarrowPhase::Bounds NarrowPhase::bounds_at(const Case& c, const Corners& corners, double t) const {
+  Bounds r{};
+  const ExactPair pair = exact_pair(c.kind, c.vertices());
+  if (c.input.maximum_norm) {
+    r.w = best_direction_in_maximum_norm(PreciseMotion(c.kind, pair.t0, pair.t1).at(t));
+    const double size = std::fabs(r.w[0]) + std::fabs(r.w[1]) + std::fabs(r.w[2]);
+    r.lower = size > 0 ? (least(corners, t, r.w) - 8 * kU * corners.rho) / size * (1 - 0x1p-49) : 0;
+    // The best direction shows all of the distance (duality): the bound is off by its own rounding and that of w.
+    r.upper = r.lower > 0 ? r.lower + 32 * kU * corners.rho : distance_at(c, t);
+    return r;
+  }
+  const ClosestPoints found =
+      t == 0 ? closest_points(c.kind, pair.t0) : closest_points(c.kind, pair.t0, pair.t1, t);
+  r.w = vec(found.direction);
+  r.lower = found.lower / corners.unit;
+  r.upper = found.upper / corners.unit;
+  return r;
+}
+
+Parting NarrowPhase::find_parting_of(const Case& c, const Corners& corners, double separation, bool touching) const {
+  const ExactPair exact = exact_pair(c.kind, c.vertices());
+  const std::function<Vec(double)> direction = [&](double t) { return bounds_at(c, corners, t).w; };
+  return find_parting({corners, c.input, c.row, c.kind, separation, direction, touching ? nullptr : &exact});
+}
+
+// Goes on at time t, where the pair is apart by more than d + kept as `at` shows. Where the full demand certifies nothing, d +
+// kept alone does: never a zero from a start that is apart.
+KernelResult NarrowPhase::advance_from(const Case& c, const Corners& corners, const Bounds& at, double t,
+                                       double kept) const {
+  const double e7 = 7.25 * kU * corners.rho, unit = corners.unit, d = c.separation() / unit + kept;
+  const double apart = at.lower - d;
+  const double delta = std::max(std::min({c.input.tolerance / unit, c.input.sharpest, 0.25 * apart}), 16 * e7);
+  const double norm =
+      c.input.maximum_norm ? std::fabs(at.w[0]) + std::fabs(at.w[1]) + std::fabs(at.w[2]) : 1;
+  double until = certified_until(corners, at.w, norm, d + 0.5 * delta, t);
+  if (until == t) until = certified_until(corners, at.w, norm, d, t);
+  KernelResult r{};
+  r.t = std::min(until, 1.0);
+  r.distance = at.upper, r.delta = delta, r.separation = d, r.unit = unit, r.checks = 1;
+  r.touched_by = 2;
+  r.verdict = until > 1 ? Verdict::free : Verdict::budget;
+  if (until > 1 || c.input.max_checks <= 1) return r;
+  const KernelResume resume{r.t, d, delta, 1, 0};
+  advance(c, &resume, r);
+  return r;
+}
+
+}  // namespace onset

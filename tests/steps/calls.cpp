@@ -1,0 +1,54 @@
+#include "tests/steps/calls.hpp"
+
+namespace onset::tests {
+
+const char* name(Call call) {
+  const char* names[] = {"whole", "line search", "listed", "close pairs", "adapter"};
+  return names[int(call)];
+}
+
+Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1) {
+  if (call != Call::line_search) return x_t1;
+  const Eigen::MatrixXd dx = x_t1 - x_t0;
+  return x_t0 + dx;
+}
+
+CallStep Calls::search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
+                       const Options& options) const {
+  const LineSearchStep r =
+      LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), options, kKeep).largest_step();
+  CallStep step{r.result, r.keep, r.result.stats.tolerance};
+  step.result.rounding = r.rounding;
+  return step;
+}
+
+CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
+                    const Options& options, double d_hat) const {
+  switch (call) {
+    case Call::whole:
+      return {compute_collision_free_stepsize(mesh_, x_t0, x_t1, options)};
+    case Call::line_search:
+      return search(mesh_, x_t0, x_t1, options);
+    case Call::listed: {
+      const Candidates list = compute_candidates(mesh_, x_t0, x_t1, options);
+      const StepResult r = compute_collision_free_stepsize(mesh_, list, x_t0, x_t1, options, kKeep);
+      return {r, kKeep, r.stats.tolerance};
+    }
+    case Call::close: {
+      const ClosePairs list = close_pairs(mesh_, x_t0, d_hat, options);
+      return {compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options), kKeep, kKeep * d_hat};
+    }
+    case Call::adapter: {
+      CallStep step = search(mesh(call), x_t0, x_t1, options);  // for what the adapter does not say
+      ipc::TightInclusionCCD ccd;
+      ccd.tolerance = options.tolerance.value_or(ccd.tolerance), ccd.max_iterations = options.max_checks;
+      step.keep = 1 - ccd.conservative_rescaling, step.reach = ccd.tolerance, step.says_outcome = false;
+      step.result.step =
+          ipc::compute_collision_free_stepsize(adapter_, x_t0, x_t1, options.min_separation, nullptr, ccd);
+      return step;
+    }
+  }
+  return {};
+}
+
+}  // namespace onset::tests

@@ -1,0 +1,48 @@
+// The five calls that give a step, asked in one way.
+#pragma once
+
+#include <onset/ipc.hpp>
+#include <onset/onset.hpp>
+
+#include "tests/steps/scene_truth.hpp"
+
+namespace onset::tests {
+
+enum class Call { whole, line_search, listed, close, adapter };
+constexpr Call kCalls[] = {Call::whole, Call::line_search, Call::listed, Call::close, Call::adapter};
+const char* name(Call call);
+
+// The share of its gap that the calls with a default for it let every pair keep.
+constexpr double kKeep = 0.2;
+
+struct CallStep {
+  StepResult result;
+  double keep = 0;   // the share that every pair that is looked at keeps
+  double reach = 0;  // a pair that stays farther beyond its separation than this may keep no more than this
+  bool says_outcome = true;  // false: only the step is known
+};
+
+class Calls {
+ public:
+  explicit Calls(const StepScene& scene)
+      : mesh_(scene.mesh()), adapter_(scene.x_t0, scene.edges, scene.faces) {}
+  const Mesh& mesh() const { return mesh_; }
+  // That of the call: the adapter tests points against edges and each other as well.
+  const Mesh& mesh(Call call) const { return call == Call::adapter ? adapter_.onset_mesh() : mesh_; }
+  // d_hat: of the close pairs, > 0. The adapter takes a tolerance, a number of checks and a Euclidean
+  // separation.
+  CallStep ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Options& options,
+               double d_hat) const;
+
+ private:
+  CallStep search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
+                  const Options& options) const;
+
+  Mesh mesh_;
+  ipc::CollisionMesh adapter_;
+};
+
+// Where the motion that the call is told of ends: a line search forms its end from a direction.
+Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1);
+
+}  // namespace onset::tests

@@ -1,0 +1,47 @@
+#include "tests/steps/scene_truth.hpp"
+
+#include "tests/oracle/quick.hpp"
+
+namespace onset::tests {
+
+double Asked::separation(PairKind kind, const std::array<int, 4>& v) const {
+  const int first = scenes::first_body(kind);
+  if (thickness.empty()) return options.min_separation;
+  return options.min_separation + thickest(thickness, v, 0, first) + thickest(thickness, v, first, 4);
+}
+
+SceneTruth::SceneTruth(const Asked& asked) {
+  for_all_pairs(asked.mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
+    const scenes::Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
+    const double d = asked.separation(kind, v);
+    if (oracle::boxes_apart(motion, d)) return;
+    const oracle::Truth within = oracle::exact_within(motion, d, asked.options.norm);
+    if (!within.collides) return;
+    const bool touching = within.toi_hi == 0 && oracle::compare_distance(motion, 0, 0) == 0;
+    contacts.push_back({{kind, a, b}, v, motion, d, within, touching});
+  });
+}
+
+oracle::Truth SceneTruth::first_met() const {
+  oracle::Truth first;
+  for (const PairTruth& pair : contacts)
+    if (!(pair.initial() && !pair.touching) && pair.within.toi_lo < first.toi_lo) first = pair.within;
+  return first;
+}
+
+oracle::Truth SceneTruth::first() const {
+  oracle::Truth t;
+  for (const PairTruth& pair : contacts) {
+    t.collides = true;
+    t.toi_lo = std::min(t.toi_lo, pair.within.toi_lo), t.toi_hi = std::min(t.toi_hi, pair.within.toi_hi);
+  }
+  return t;
+}
+
+const PairTruth* SceneTruth::touching() const {
+  for (const PairTruth& pair : contacts)
+    if (pair.touching) return &pair;
+  return nullptr;
+}
+
+}  // namespace onset::tests

@@ -1,0 +1,79 @@
+// Whole scenes against exact contacts, whatever the options: the step, where storing it leaves every pair,
+// what the five calls say, the active set, and that they agree.
+#include <sstream>
+
+#include "tests/catch.hpp"
+#include "tests/oracle/promises.hpp"
+#include "tests/steps/promises.hpp"
+#include "tests/steps/random_scenes.hpp"
+
+using namespace onset;
+using namespace onset::tests;
+
+namespace {
+
+std::string to_text(const Options& o) {
+  std::ostringstream s;
+  s << "tolerance " << o.tolerance.value_or(0) << ", relative " << o.relative_tolerance << ", separation "
+    << o.min_separation << ", norm " << int(o.norm) << ", certainty " << int(o.certainty) << ", checks "
+    << o.max_checks << ", narrow " << int(o.narrow_phase) << ", broad " << int(o.broad_phase) << ", window "
+    << o.window;
+  return s.str();
+}
+
+struct Counts {
+  int scenes = 0, contacts = 0, initial = 0, at_the_end = 0;
+};
+
+void check_scene(const StepScene& scene, const Options& options, double d_hat, Counts& counts) {
+  const Calls calls(scene);
+  const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, {}};
+  const oracle::Truth first = SceneTruth(asked).first();
+  ++counts.scenes, counts.contacts += first.collides, counts.initial += first.toi_hi == 0;
+  counts.at_the_end += first.toi_lo == 1;
+  const std::string broken = broken_promise(asked, calls, d_hat);
+  if (broken.empty()) return;
+  INFO(to_text(options) << ", d_hat " << d_hat << ", exact " << first.toi_lo << " " << first.toi_hi);
+  FAIL_CHECK(broken);
+}
+
+double some_d_hat(const StepScene& scene, scenes::Random& random) {
+  const double size = (scene.x_t0.colwise().maxCoeff() - scene.x_t0.colwise().minCoeff()).maxCoeff();
+  return std::max(size, 0x1p-1060) * scenes::power_of_ten(random, -4, 1);
+}
+
+Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Random&)) {
+  scenes::Random random(oracle::fuzz_seed() * 1000 + seed);
+  Counts counts;
+  for (int i = 0; i < count; ++i) {
+    const StepScene scene = make(random);
+    const Options options = random_options(scene, random);
+    INFO("scene " << i);
+    check_scene(scene, options, some_d_hat(scene, random), counts);
+  }
+  return counts;
+}
+
+}  // namespace
+
+TEST_CASE("no step of a scene on a grid is late, whatever is asked", "[property][oracle]") {
+  const Counts c = check_scenes(oracle::fuzz(200), 1, grid_scene);
+  CHECK(10 * c.contacts > 5 * c.scenes);
+  CHECK(20 * c.initial > c.scenes);
+}
+
+TEST_CASE("no step of a scene over a floor is late, whatever is asked", "[property][oracle]") {
+  const Counts c = check_scenes(oracle::fuzz(200), 2, floor_scene);
+  CHECK(10 * c.contacts > 4 * c.scenes);
+  CHECK(20 * c.at_the_end > c.scenes);
+}
+
+TEST_CASE("no step of pairs of any family in one scene is late, whatever is asked", "[property][oracle]") {
+  const Counts c = check_scenes(oracle::fuzz(200), 3, family_scene);
+  CHECK(10 * c.contacts > 2 * c.scenes);
+}
+
+TEST_CASE("no step of tetrahedra that meet is late, whatever is asked", "[property][oracle]") {
+  const Counts c = check_scenes(oracle::fuzz(50), 4, tetrahedra);
+  CHECK(10 * c.contacts > 2 * c.scenes);
+}
