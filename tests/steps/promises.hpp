@@ -14,8 +14,8 @@ namespace onset::tests {
 // operations, do so too; parting pairs come no closer than they were.
 std::string broken_by_moving(const Asked& asked, const SceneTruth& truth, double step, double rounding);
 
-// A step of 0 where nothing touches and every gap is more than twice `rounding`.
-std::string stuck(const Asked& asked, const SceneTruth& truth, const StepResult& r);
+// A step of 0 where every gap is more than twice the rounding that is told.
+std::string stuck(const Asked& asked, const StepResult& r);
 
 // toi, toi_hi, outcome and limiting pair say what is so. Exact times are promised by Call::whole alone; a
 // step from close pairs may end before 1 without a pair.

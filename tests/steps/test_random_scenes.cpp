@@ -57,23 +57,23 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
 }  // namespace
 
 TEST_CASE("no step of a scene on a grid is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(200), 1, grid_scene);
+  const Counts c = check_scenes(oracle::fuzz(100), 1, grid_scene);
   CHECK(10 * c.contacts > 5 * c.scenes);
   CHECK(20 * c.initial > c.scenes);
 }
 
 TEST_CASE("no step of a scene over a floor is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(200), 2, floor_scene);
+  const Counts c = check_scenes(oracle::fuzz(150), 2, floor_scene);
   CHECK(10 * c.contacts > 4 * c.scenes);
   CHECK(20 * c.at_the_end > c.scenes);
 }
 
 TEST_CASE("no step of pairs of any family in one scene is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(200), 3, family_scene);
+  const Counts c = check_scenes(oracle::fuzz(150), 3, family_scene);
   CHECK(10 * c.contacts > 2 * c.scenes);
 }
 
 TEST_CASE("no step of tetrahedra that meet is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(50), 4, tetrahedra);
+  const Counts c = check_scenes(oracle::fuzz(25), 4, tetrahedra);
   CHECK(10 * c.contacts > 2 * c.scenes);
 }
