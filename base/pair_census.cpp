@@ -196,15 +196,14 @@ class Census {
       vf.excluded += tally(PairKind::vertex_face, x->second, y->second, false).rest;
       ee.excluded += tally(PairKind::edge_edge, x->second, y->second, false).rest;
     }
-    if (mesh_.excluded_vertices.empty()) return;
     std::map<int, std::array<std::vector<int>, 2>> around;  // edges and faces at the vertices named
     for (const auto& pair : mesh_.excluded_vertices) around[pair[0]], around[pair[1]];
     for (const Primitive p : {Primitive::edge, Primitive::face})
-      for (std::size_t id = 0; id < primitive_count(mesh_, p); ++id)
+      for (std::size_t id = 0; !around.empty() && id < primitive_count(mesh_, p); ++id)
         for (std::size_t k = 0; k < (p == Primitive::edge ? 2u : 3u); ++k)
           if (const auto at = around.find(primitive_vertices(mesh_, p, int(id))[k]); at != around.end())
             at->second[p == Primitive::face].push_back(int(id));
-    std::vector<std::array<int, 2>> found[2];
+    std::vector<std::array<int, 2>> found[2] = {mesh_.excluded_pairs[0], mesh_.excluded_pairs[1]};
     for (const auto& [v, w] : mesh_.excluded_vertices) {
       for (const auto& [from, to] : {std::pair(v, w), {w, v}})
         for (int f : around[to][1]) found[0].push_back({from, f});
@@ -216,12 +215,12 @@ class Census {
       std::sort(pairs.begin(), pairs.end());
       pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
       Count& excluded = kind == PairKind::vertex_face ? vf.excluded : ee.excluded;
-      for (const auto& [a, b] : pairs) excluded += only_by_vertices(kind, a, b);
+      for (const auto& [a, b] : pairs) excluded += only_by_name(kind, a, b);
     }
   }
 
-  // Whether nothing but a pair of vertices leaves this pair out.
-  bool only_by_vertices(PairKind kind, int a, int b) const {
+  // Whether nothing but a pair of vertices, or its own name, leaves this pair out.
+  bool only_by_name(PairKind kind, int a, int b) const {
     const Primitive p = first_primitive(kind), q = second_primitive(kind);
     if (p == q && a == b) return false;
     const int x = body_of(p, a), y = body_of(q, b);
@@ -238,18 +237,23 @@ class Census {
     return n;
   }
 
+  // Edges meet faces too, in positions at rest.
+  static std::vector<Primitive> others(Primitive p) {
+    if (p == Primitive::vertex) return {Primitive::face};
+    return {Primitive::edge, p == Primitive::edge ? Primitive::face : Primitive::vertex};
+  }
+
   void mark_idle(Primitive p, std::vector<bool>& idle) const {
-    const Primitive other = p == Primitive::vertex ? Primitive::face
-                            : p == Primitive::face ? Primitive::vertex
-                                                   : Primitive::edge;
-    std::map<int, Count> in_scene;
-    for (const Alike& a : scene_) in_scene[a.kind] = partners(a.kind, other, scene_);
-    idle.resize(primitive_count(mesh_, p));
-    for (std::size_t id = 0; id < idle.size(); ++id) {
-      const int kind = kind_of(p, int(id)), body = body_of(p, int(id));
-      const bool alone = no_self(body);
-      const Count own = alone ? partners(kind, other, bodies_.at(body)) : p == other && meet(kind, kind);
-      idle[id] = in_scene.at(kind) == own;
+    idle.assign(primitive_count(mesh_, p), true);
+    for (const Primitive other : others(p)) {
+      std::map<int, Count> in_scene;
+      for (const Alike& a : scene_) in_scene[a.kind] = partners(a.kind, other, scene_);
+      for (std::size_t id = 0; id < idle.size(); ++id) {
+        const int kind = kind_of(p, int(id)), body = body_of(p, int(id));
+        const bool alone = no_self(body);
+        const Count own = alone ? partners(kind, other, bodies_.at(body)) : p == other && meet(kind, kind);
+        if (in_scene.at(kind) != own) idle[id] = false;
+      }
     }
   }
 

@@ -8,7 +8,7 @@
 namespace onset {
 
 struct IdPair {
-  int a, b;  // vertex_face: vertex, face; edge_edge: edges, a < b
+  int a, b;  // vertex_face: vertex, face; edge_edge: edges, a < b; kEdgeFace: edge, face
 };
 
 // A plain callback, so that kernels compiled for another instruction set can call it. `pairs` is valid during the call only.

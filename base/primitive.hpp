@@ -38,12 +38,15 @@ inline std::array<int, 3> primitive_vertices(const MeshData& mesh, Primitive kin
   }
 }
 
+// Edges against faces, which only positions at rest are asked about: no kind of pair that a step has.
+inline constexpr PairKind kEdgeFace = PairKind(2);
+
 // What is on each side of a pair.
 inline Primitive first_primitive(PairKind kind) {
   return kind == PairKind::vertex_face ? Primitive::vertex : Primitive::edge;
 }
 inline Primitive second_primitive(PairKind kind) {
-  return kind == PairKind::vertex_face ? Primitive::face : Primitive::edge;
+  return kind == PairKind::edge_edge ? Primitive::edge : Primitive::face;
 }
 
 }  // namespace onset

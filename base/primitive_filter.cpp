@@ -13,12 +13,17 @@ namespace {
 
 int vertices_each(Primitive kind) { return kind == Primitive::vertex ? 1 : kind == Primitive::edge ? 2 : 3; }
 
+bool any_excluded_pair(const MeshData& m) {
+  return std::any_of(m.excluded_pairs.begin(), m.excluded_pairs.end(),
+                     [](const auto& pairs) { return !pairs.empty(); });
+}
+
 bool needs_keys(const MeshData& m) {
   const auto any = [](const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
   };
   return !m.group.empty() || any(m.fixed) || any(m.rigid) || any(m.no_self) || !m.excluded_bodies.empty() ||
-         !m.excluded_vertices.empty();
+         !m.excluded_vertices.empty() || any_excluded_pair(m);
 }
 
 std::vector<bool> marked(std::size_t size, const std::vector<std::array<int, 2>>& pairs) {
@@ -56,6 +61,15 @@ void make_keys(const MeshData& m, PrimitiveFilter& filter) {
   }
 }
 
+void flag_excluded_pairs(const MeshData& m, PrimitiveFilter& filter) {
+  for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge, kEdgeFace})
+    for (const auto& [a, b] : m.excluded_pairs[std::size_t(kind)]) {
+      filter.keys[std::size_t(first_primitive(kind))][std::size_t(a)].flags |= kExcludedFlag;
+      filter.keys[std::size_t(second_primitive(kind))][std::size_t(b)].flags |= kExcludedFlag;
+      filter.compares_keys = true;
+    }
+}
+
 std::vector<int> listed(const std::vector<bool>& marks) {
   std::vector<int> ids;
   for (std::size_t i = 0; i < marks.size(); ++i)
@@ -65,7 +79,8 @@ std::vector<int> listed(const std::vector<bool>& marks) {
 
 // Where no two primitives are kept apart: a kind without partners is dropped as a whole.
 void list_kinds(const MeshData& m, PrimitiveFilter& filter) {
-  const bool faces = m.num_vertices > 0 && !m.faces.empty(), edges = m.edges.size() > 1;
+  const bool faces = m.num_vertices > 0 && !m.faces.empty();
+  const bool edges = m.edges.size() > 1 || (faces && !m.edges.empty());
   const std::array<bool, 3> needed{faces, edges, faces};
   const std::array<PrimitivePlan*, 3> plans{&filter.plan.vertices, &filter.plan.edges, &filter.plan.faces};
   for (const Primitive kind : kPrimitives) {
@@ -112,7 +127,7 @@ bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
 
 void finish_mesh(MeshData& mesh) {
   auto filter = std::make_shared<PrimitiveFilter>();
-  if (needs_keys(mesh)) make_keys(mesh, *filter);
+  if (needs_keys(mesh)) make_keys(mesh, *filter), flag_excluded_pairs(mesh, *filter);
   std::array<std::vector<bool>, 3> idle;
   take_census(mesh, *filter, idle);
   if (filter->keeps_apart())
@@ -136,6 +151,10 @@ bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b) {
 }
 
 bool excluded(const MeshData& mesh, PairKind kind, int a, int b) {
+  const auto& pairs = mesh.excluded_pairs[std::size_t(kind)];
+  const std::array<int, 2> ids = kind == PairKind::edge_edge ? std::array<int, 2>{std::min(a, b), std::max(a, b)}
+                                                             : std::array<int, 2>{a, b};
+  if (std::binary_search(pairs.begin(), pairs.end(), ids)) return true;
   const auto first = primitive_vertices(mesh, first_primitive(kind), a);
   const auto second = primitive_vertices(mesh, second_primitive(kind), b);
   if (!mesh.excluded_bodies.empty() &&

@@ -17,7 +17,7 @@ struct PrimitiveKey {
   std::uint32_t group, mask;
 };
 inline constexpr int kFixedFlag = int(0x80000000u);  // all vertices static: the sign bit
-inline constexpr int kExcludedFlag = 1;              // named in an excluded pair, by a vertex or its body
+inline constexpr int kExcludedFlag = 1;              // named in an excluded pair, itself, by a vertex or its body
 
 struct PrimitiveFilter {
   PairPlan plan;
@@ -49,7 +49,7 @@ inline bool keys_meet(const PrimitiveKey& a, const PrimitiveKey& b) {
 
 bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b);
 
-// Whether the pair is named, by its vertices or bodies, in an excluded pair.
+// Whether the pair is named, itself, by its vertices or bodies, in an excluded pair.
 bool excluded(const MeshData& mesh, PairKind kind, int a, int b);
 
 // The definition that every broad phase keeps to: a pair that fails this is no candidate.

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "base/mesh_data.hpp"
 #include "base/motion.hpp"
 #include "base/pair_sink.hpp"
+#include "base/primitive.hpp"
 #include "broadphase/box_test.hpp"
 #include "onset/options.hpp"
 
@@ -23,7 +25,17 @@ struct BroadPhaseInput {
   // For primitives all of whose vertices are static, in place of `inflation`; < 0: the same. Their boxes are
   // kept with the mesh from call to call as long as this stays what it was.
   double fixed_inflation = -1;
+  // The pairs wanted are of kEdgeFace alone, by the swept test; else of both kinds that a step has.
+  bool edges_against_faces = false;
 };
+
+inline std::vector<PairKind> wanted_kinds(const BroadPhaseInput& input) {
+  if (input.edges_against_faces) return {kEdgeFace};
+  return {PairKind::vertex_face, PairKind::edge_edge};
+}
+inline bool is_wanted(const BroadPhaseInput& input, Primitive kind) {
+  return kind != Primitive::vertex || !input.edges_against_faces;
+}
 
 // Emits each pair that the mesh lets meet (may_meet in base/primitive_filter.hpp) and that passes the test,
 // exactly once.
@@ -31,7 +43,8 @@ class BroadPhase : public PairSource {
  public:
   virtual const char* name() const = 0;
   // New boxes in the memory and the order already there: another motion, horizon, inflation or test over the
-  // same mesh (the same MeshData object). Afterwards as if made from `input`, up to the order of pairs.
+  // same mesh (the same MeshData object) and kinds of pairs. Afterwards as if made from `input`, up to the
+  // order of pairs.
   virtual void refit(const BroadPhaseInput& input) = 0;
   // Whether the order already there is about as good for this motion as it was for the one that it was made
   // for: a broad phase that an earlier call used is then worth a refit.

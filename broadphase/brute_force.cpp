@@ -21,7 +21,8 @@ class BruteForce final : public BroadPhase {
   void refit(const BroadPhaseInput& input) override {
     test_ = input.test;
     finite_ = input.motion.status == Outcome::free;
-    for (Primitive kind : kPrimitives) boxes_[std::size_t(kind)] = motion_boxes(input, kind);
+    for (Primitive kind : kPrimitives)
+      boxes_[std::size_t(kind)] = is_wanted(input, kind) ? motion_boxes(input, kind) : MotionBoxes{};
   }
 
   std::size_t blocks(PairKind kind) const override {

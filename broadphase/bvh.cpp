@@ -30,8 +30,10 @@ class Bvh final : public BroadPhase {
       for (std::size_t k = first; k < last; ++k)
         trees_[k].emplace(
             mesh, kPrimitives[k],
-            all ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])} : listed(filter->moving[k]), order_,
-            alone);
+            !is_wanted(input, kPrimitives[k]) ? IdList{nullptr, 0}
+            : all                             ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])}
+                                              : listed(filter->moving[k]),
+            order_, alone);
     });
     roughness_ = roughness(order_, input.motion);
     fit(input, map);
@@ -94,7 +96,8 @@ class Bvh final : public BroadPhase {
     TraverseArguments arguments{};
     arguments.query = couple.query->view(), arguments.tree = couple.other->view();
     arguments.test = input_->test;
-    arguments.edges = kind == PairKind::edge_edge;
+    static_assert(Sides(kEdgeFace) == Sides::edges_faces, "one number for both");
+    arguments.sides = Sides(kind);
     arguments.self = couple.query == couple.other;
     arguments.keyed = arguments.query.keys != nullptr;
     arguments.rounded_axes = couple.query->rounded_axes() | couple.other->rounded_axes();
@@ -114,7 +117,7 @@ class Bvh final : public BroadPhase {
     parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, inflation, map, vertices);
     });
-    for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) couple(kind);
+    for (const PairKind kind : wanted_kinds(input)) couple(kind);
   }
 
   // Static against static is never among them.
@@ -142,7 +145,7 @@ class Bvh final : public BroadPhase {
   std::optional<BroadPhaseInput> input_;
   std::array<std::optional<BoxTree>, 3> trees_;
   std::shared_ptr<const FixedTrees> fixed_;
-  std::array<std::vector<Couple>, 2> couples_;
+  std::array<std::vector<Couple>, 3> couples_;
 };
 
 }  // namespace

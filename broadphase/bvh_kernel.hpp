@@ -46,10 +46,13 @@ struct FitArguments {
   int members_each;
 };
 
+// What is on each side; of two edges the smaller id comes first. Edges against faces by the swept test only.
+enum class Sides { vertices_faces, edges_edges, edges_faces };
+
 struct TraverseArguments {
   TreeView query, tree;
   BoxTest test;
-  bool edges;  // edges against edges, smaller id first; else vertices against faces
+  Sides sides;
   bool self;   // one tree of edges: each unordered pair once
   bool keyed;  // both trees have bodies and keys, which are tested
   int rounded_axes;         // bit i: equal floats on axis i need not be equal doubles

@@ -24,7 +24,7 @@ struct Pairs {
 // Two trees descended side by side. Every step is a loop over a list that writes the next list without
 // branches, eight entries at a time and as many of them counted as the test says; a list that is full is
 // emptied downward first, so memory is constant and the work depth first.
-template <BoxTest kTest, bool kEdges, bool kSelf, bool kKeyed>
+template <BoxTest kTest, Sides kSides, bool kSelf, bool kKeyed>
 class Traversal {
  public:
   explicit Traversal(const TraverseArguments& arguments) : t_(arguments) {}
@@ -45,7 +45,8 @@ class Traversal {
   static constexpr bool kMotion = kTest != BoxTest::swept, kPassing = kTest == BoxTest::passing;
   static constexpr int kRows = kRowsOf[kMotion];
   static constexpr int kBoxStride = kBoxStrideOf[kMotion];
-  static constexpr int kOwn = kEdges ? 2 : 1, kOther = kEdges ? 2 : 3;  // vertices of a primitive
+  static constexpr bool kEdges = kSides == Sides::edges_edges;
+  static constexpr int kOwn = kSides == Sides::vertices_faces ? 1 : 2, kOther = kEdges ? 2 : 3;  // vertices of a primitive
 
   static const float* block_of(const TreeView& tree, int level, unsigned n) {
     return tree.level[level] + std::size_t(n) * (kRows * kLanes);
@@ -287,19 +288,26 @@ class Traversal {
   IdPair out_[kBatchSize];
 };
 
+template <BoxTest kTest, Sides kSides, bool kSelf = false>
+void traverse_sides(const TraverseArguments& a) {
+  a.keyed ? Traversal<kTest, kSides, kSelf, true>(a).run() : Traversal<kTest, kSides, kSelf, false>(a).run();
+}
+
 template <BoxTest kTest>
 void traverse_boxes(const TraverseArguments& a) {
-  if (a.edges && a.self)
-    a.keyed ? Traversal<kTest, true, true, true>(a).run() : Traversal<kTest, true, true, false>(a).run();
-  else if (a.edges)
-    a.keyed ? Traversal<kTest, true, false, true>(a).run() : Traversal<kTest, true, false, false>(a).run();
+  if (a.sides == Sides::vertices_faces)
+    traverse_sides<kTest, Sides::vertices_faces>(a);
+  else if (a.self)
+    traverse_sides<kTest, Sides::edges_edges, true>(a);
   else
-    a.keyed ? Traversal<kTest, false, false, true>(a).run() : Traversal<kTest, false, false, false>(a).run();
+    traverse_sides<kTest, Sides::edges_edges>(a);
 }
 
 }  // namespace
 
 void traverse(const TraverseArguments& arguments) {
+  if (arguments.sides == Sides::edges_faces)
+    return traverse_sides<BoxTest::swept, Sides::edges_faces>(arguments);
   switch (arguments.test) {
     case BoxTest::swept: return traverse_boxes<BoxTest::swept>(arguments);
     case BoxTest::motion: return traverse_boxes<BoxTest::motion>(arguments);

@@ -126,14 +126,16 @@ class SpatialHash final : public BroadPhase {
     finite_ = input.motion.status == Outcome::free;
     if (!finite_) return;
     const FloatMap map(input.motion);
-    for (Primitive kind : kPrimitives) boxes_[std::size_t(kind)] = make_boxes(input, map, kind);
-    for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
+    for (Primitive kind : kPrimitives)
+      boxes_[std::size_t(kind)] = is_wanted(input, kind) ? make_boxes(input, map, kind) : Boxes{};
+    for (PairKind kind : wanted_kinds(input))
       cells_[std::size_t(kind)].emplace(boxes(first_primitive(kind)).swept,
                                         boxes(second_primitive(kind)).swept, kind == PairKind::edge_edge);
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return finite_ ? cells_[std::size_t(kind)]->blocks() : 0;
+    const std::optional<Cells>& cells = cells_[std::size_t(kind)];
+    return finite_ && cells ? cells->blocks() : 0;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
@@ -154,7 +156,7 @@ class SpatialHash final : public BroadPhase {
   BoxTest test_ = BoxTest::motion;
   bool finite_ = false;
   std::array<Boxes, 3> boxes_;
-  std::array<std::optional<Cells>, 2> cells_;
+  std::array<std::optional<Cells>, 3> cells_;
 };
 
 }  // namespace

@@ -156,12 +156,12 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]) {
   return in_model_length(r, bounds, scale);
 }
 
-ClosestPoints closest_points(const Differences<DoubleDouble>& precise, double blur) {
-  Differences<double> d{precise.kind, rounded(precise.q), rounded(precise.a), rounded(precise.b), {}};
-  for (int k = 0; k < d.corners(); ++k) d.corner[k] = rounded(precise.corner[k]);
+ClosestPoints precise_closest_points(const Differences<DoubleDouble>& d, double blur) {
+  double rho2 = 0;
+  for (int k = 0; k < d.corners(); ++k) rho2 = std::max(rho2, dot(d.corner[k], d.corner[k]).hi);
   ClosestPoints r;
   Bounds bounds;
-  if (!look(d, blur, r, bounds)) look_closer(precise, largest_corner(d), blur, r, bounds);
+  look_closer(d, std::sqrt(rho2), blur, r, bounds);
   r.distance = bounds.distance, r.lower = bounds.lower, r.upper = bounds.upper;
   return r;
 }
@@ -170,8 +170,14 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const 
                              double t) {
   const PreciseMotion motion(kind, x0, x1);
   if (motion.size == 0) return at_one_place(kind);
-  const ClosestPoints r = closest_points(motion.at(t), t == 0 ? 0 : PreciseMotion::kBlur);
-  return in_model_length(r, {r.distance, r.lower, r.upper}, 1 / motion.unit);
+  const Differences<DoubleDouble> precise = motion.at(t);
+  Differences<double> d{kind, rounded(precise.q), rounded(precise.a), rounded(precise.b), {}};
+  for (int k = 0; k < d.corners(); ++k) d.corner[k] = rounded(precise.corner[k]);
+  const double blur = t == 0 ? 0 : PreciseMotion::kBlur;
+  ClosestPoints r;
+  Bounds bounds;
+  if (!look(d, blur, r, bounds)) look_closer(precise, largest_corner(d), blur, r, bounds);
+  return in_model_length(r, bounds, 1 / motion.unit);
 }
 
 }  // namespace onset

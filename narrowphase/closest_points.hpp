@@ -36,8 +36,9 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]);
 ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
                              double t);
 
-// The same of differences that are off by `blur` at most, lengths in their unit; none is beyond 2^10, and rho
-// not below 2^-100.
-ClosestPoints closest_points(const Differences<DoubleDouble>& d, double blur);
+// The same in double-doubles throughout, of differences that are off by `blur` at most: the direction is that
+// of the exact closest points within u + 2^-96 rho^2 / distance^2. Lengths are in the differences' unit; none
+// is beyond 2^10.
+ClosestPoints precise_closest_points(const Differences<DoubleDouble>& d, double blur);
 
 }  // namespace onset

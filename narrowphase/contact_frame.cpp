@@ -3,133 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/orientation.hpp"
-#include "narrowphase/corners.hpp"
+#include "narrowphase/closest_points.hpp"
+#include "narrowphase/exact_complete.hpp"
 #include "narrowphase/kernels.hpp"
-#include "narrowphase/vec.hpp"
+#include "narrowphase/precise_differences.hpp"
 
 namespace onset {
 namespace {
 
-constexpr double kU = 0x1p-53;
+// Of the pair's size. A gap that is wider gives a direction that neither the rounding of t nor that of the
+// weights, each a few 2^-53 of the size, can turn by much.
+constexpr double kResolved = 0x1p-46;
+// Of a length: what rounding in doubles leaves of a product or a part of it that is 0.
+constexpr double kNothing = 0x1p-40;
 
-// The form that both kinds share: the differences of the two primitives are q - U a - V b, with (U, V) in the
-// triangle U, V >= 0, U + V <= 1 (vertex-face), or in the unit square (edge-edge).
-struct Differences {
-  Vec q, a, b;
-  Vec at(double U, double V) const { return q - U * a - V * b; }
-};
-
-Differences differences(PairKind kind, const Corners& c, int end) {
-  const Vec q = vec(c.c[end][0]), first = vec(c.e[end][0]);
-  if (kind == PairKind::vertex_face) return {q, first, -1 * vec(c.e[end][2])};
-  return {q, -1 * first, vec(c.e[end][1])};
-}
-
-Vec mix(const Vec& x, const Vec& y, double t) { return (1 - t) * x + t * y; }
-
-struct Nearest {
-  double U = 0, V = 0;
-  bool inside = false;
-};
-
-// The plane of a and b by Gram-Schmidt from the longer one, which keeps the nearest point within a few u of
-// the edges' size however thin the primitive is.
-struct Plane {
-  bool swapped = false;  // b is the longer one
-  Vec along, across;     // the longer edge, and the other without its part along it
-  double share = 0;      // that part, of the longer edge
-  bool solvable = false, resolved = false;
-};
-
-// `noise`: bound on the error of a and b. 2^10 of it across leaves a normal good to 2^-10.
-Plane plane_of(const Differences& d, double noise) {
-  Plane r;
-  r.swapped = dot(d.b, d.b) > dot(d.a, d.a);
-  r.along = r.swapped ? d.b : d.a;
-  const Vec other = r.swapped ? d.a : d.b;
-  const double size = dot(r.along, r.along);
-  if (!(size > 0x1p-600)) return r;
-  r.share = dot(other, r.along) / size;
-  r.across = other - r.share * r.along;
-  r.across = r.across - (dot(r.across, r.along) / size) * r.along;
-  const double width = dot(r.across, r.across);
-  r.solvable = width > 0x1p-600;
-  r.resolved = r.solvable && std::sqrt(width) > 0x1p10 * noise;
-  return r;
-}
-
-bool in_domain(PairKind kind, double U, double V) {
-  return U >= 0 && V >= 0 && (kind == PairKind::vertex_face ? U + V <= 1 : U <= 1 && V <= 1);
-}
-bool in_interior(PairKind kind, double U, double V) {
-  return U > 0 && V > 0 && (kind == PairKind::vertex_face ? U + V < 1 : U < 1 && V < 1);
-}
-
-Nearest nearest(PairKind kind, const Differences& d, const Plane& plane) {
-  Nearest best;
-  double least = dot(d.q, d.q);
-  // Also above a plane that is too thin for a normal: its boundary may be as far as its width.
-  if (plane.solvable) {
-    double x = 0, y = 0;
-    Vec left = d.q;
-    for (int round = 0; round < 2;
-         ++round) {  // the second takes back what the first lost to a thin primitive
-      const double dy = dot(left, plane.across) / dot(plane.across, plane.across);
-      x += dot(left, plane.along) / dot(plane.along, plane.along) - dy * plane.share;
-      y += dy;
-      left = plane.swapped ? d.at(y, x) : d.at(x, y);
-    }
-    const double U = plane.swapped ? y : x, V = plane.swapped ? x : y;
-    if (in_domain(kind, U, V)) {
-      best = {U, V, in_interior(kind, U, V)};
-      if (plane.resolved) return best;
-      least = dot(left, left);
-    }
-  }
-  struct Side {
-    double U, V, dU, dV;
-  };
-  static constexpr Side kTriangle[] = {{0, 0, 1, 0}, {0, 0, 0, 1}, {1, 0, -1, 1}};
-  static constexpr Side kSquare[] = {{0, 0, 1, 0}, {0, 0, 0, 1}, {0, 1, 1, 0}, {1, 0, 0, 1}};
-  const bool triangle = kind == PairKind::vertex_face;
-  const Side* sides = triangle ? kTriangle : kSquare;
-  for (int i = 0; i < (triangle ? 3 : 4); ++i) {
-    const Side& s = sides[i];
-    const Vec w = d.at(s.U, s.V), e = s.dU * d.a + s.dV * d.b;
-    const double size = dot(e, e);
-    const double along = size > 0 ? std::clamp(dot(w, e) / size, 0.0, 1.0) : 0.0;
-    const Nearest here{s.U + along * s.dU, s.V + along * s.dV, false};
-    const Vec x = d.at(here.U, here.V);
-    if (dot(x, x) < least) least = dot(x, x), best = here;
-  }
-  return best;
-}
-
-// To multiples of 2^-52, which moves the point by no more than u of an edge: all weights are then exact and
-// sum to exactly 1 and -1, so that p1 - p2 does not depend on where in space the pair is.
-Nearest rounded(PairKind kind, Nearest n) {
-  n.U = (1 + n.U) - 1;
-  n.V = (1 + n.V) - 1;
-  if (kind == PairKind::vertex_face) n.V = std::min(n.V, 1 - n.U);
-  return n;
-}
-
-std::array<double, 4> weights(PairKind kind, const Nearest& n) {
-  if (kind == PairKind::vertex_face) return {1, -(1 - n.U - n.V), -n.U, -n.V};
-  return {1 - n.U, n.U, -(1 - n.V), -n.V};
-}
-
-// The side of a x b that q is on at t = 0, exactly: a hair above a face is above it. 0 where it is on
-// neither.
-int side_at_start(PairKind kind, const Motion& motion, const std::array<int, 4>& v) {
-  const double* p[4];
-  for (int i = 0; i < 4; ++i) p[i] = motion.t0(v[std::size_t(i)]);
-  // As in initial.cpp; for edges a x b is minus the product of their directions.
-  const int sign = kind == PairKind::vertex_face ? orientation(p[2], p[3], p[0], p[1])
-                                                 : -orientation(p[1], p[2], p[3], p[0]);
-  return std::abs(sign) == kUnknownSide ? 0 : sign;
-}
+double length(const Vec& v) { return std::sqrt(dot(v, v)); }
 
 // Exchanging axes an odd number of times turns a cross product round.
 bool odd(const std::array<int, 3>& axes) { return (axes[1] - axes[0] + 3) % 3 != 1; }
@@ -144,78 +32,104 @@ Vec square_to(const Vec& e) {
   return dot(n, n) > 0 ? unit(n) : axis;
 }
 
-// One pair at one time, scaled as its corners are.
-struct Contact {
-  PairKind kind;
-  const Motion& motion;
-  const std::array<int, 4>& vertices;
-  double t;
-  bool parting;
-  double noise;  // bound on the error of p1 - p2 and of its motion
-  Plane plane;
-  bool inside;
-  Vec apart, motion_apart;  // p1 - p2, and how it changes over the whole step
+ExactPair exact_pair(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices) {
+  ExactPair r{kind, {}, {}};
+  for (std::size_t i = 0; i < 4; ++i) r.t0[i] = motion.t0(vertices[i]), r.t1[i] = motion.t1(vertices[i]);
+  return r;
+}
 
-  Vec normal() const {
-    const double distance = std::sqrt(dot(apart, apart));
-    // The direction of p1 - p2 is good to 2^-10 where it is so much longer than its error.
-    const bool direction = distance > 0x1p10 * noise;
-    const Vec across = plane.resolved ? unit(cross(unit(plane.along), unit(plane.across))) : Vec{};
-    if (plane.resolved && (inside || !direction)) {
-      if (const double side = side_of(across); side != 0) return side * across;
-      if (inside) return wound(across);
-    }
-    return distance > 4 * noise ? unit(apart) : touching(across);
+// How p1 - p2 changes over the whole step.
+VecOf<DoubleDouble> motion_of(const PreciseMotion& m, const double (&weights)[4]) {
+  const DoubleDouble U = m.start.kind == PairKind::vertex_face ? -weights[2] : weights[1], V = -weights[3];
+  return ((m.end.q - m.start.q) - U * (m.end.a - m.start.a)) - V * (m.end.b - m.start.b);
+}
+
+// A pair whose gap does not give its normal: it touches, or is at a boundary with next to no gap.
+class Touching {
+ public:
+  Touching(const ExactPair& pair, const Differences<DoubleDouble>& d, const ClosestPoints& near,
+           const Vec& past, double t, bool odd_axes)
+      : pair_(pair), d_(d), near_(near), plane_(d), past_(past), t_(t), odd_axes_(odd_axes) {
+    if (plane_.resolved) across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
+  }
+
+  // Inside both primitives: across the plane, on the side that the pair came from. 0: not known.
+  int side() const {
+    const int s = side_before(pair_, t_);  // of a x b, with the form of the exact decision
+    return pair_.kind == PairKind::vertex_face ? s : -s;
+  }
+  Vec inside(int side) const {
+    if (side != 0) return double(side) * across_;
+    const double towards = dot(across_, past_);
+    return std::fabs(towards) > kNothing * length(past_) ? (towards > 0 ? across_ : -1 * across_) : wound();
+  }
+
+  // At a boundary: along p1 - p2, or across the plane, if that is where the pair came from; else along its
+  // way.
+  Vec at_boundary() const {
+    const Vec direction = vec(near_.direction);
+    if (near_.lower > 0 && came_along(direction)) return direction;
+    if (plane_.resolved && came_from(across_))
+      if (const Vec n = double(side_here()) * across_; came_along(n)) return n;
+    return along_way();
   }
 
  private:
-  Vec past() const { return parting ? motion_apart : -1 * motion_apart; }
+  bool came_along(const Vec& n) const { return dot(n, past_) > kNothing * length(past_); }
+  bool came_from(const Vec& n) const { return came_along(n) || came_along(-1 * n); }
+  int side_here() const {
+    const double here = dot(d_.q, plane_.normal()).hi;
+    if (near_.lower > 0 && std::fabs(here) > 0x1p-90) return (here > 0) != plane_.swapped ? 1 : -1;
+    return side();
+  }
+  // The winding decides on either side of a face, or between edges, that nothing moves from.
+  Vec wound() const { return odd_axes_ ? -1 * across_ : across_; }
 
-  // The sign that turns n = +- a x b, in turn, to the side that the points are on, to the exact one at t = 0,
-  // and to the one that the points came from. 0: they stay in the plane.
-  double side_of(const Vec& n) const {
-    const double now = dot(n, apart), before = dot(n, past());
-    if (std::fabs(now) > 4 * noise) return now > 0 ? 1 : -1;
-    if (t == 0)
-      if (const int side = side_at_start(kind, motion, vertices)) return (side > 0) != plane.swapped ? 1 : -1;
-    return std::fabs(before) > 4 * noise ? (before > 0 ? 1 : -1) : 0;
+  // Within the plane; or square to the longest edge, or along it, end on end. At rest p1 - p2 decides, or the
+  // winding, or, without one, any direction square to the edge.
+  Vec along_way() const {
+    const bool thin = !(plane_.width2.hi > 0x1p-80 * plane_.length2.hi);
+    const Vec e = thin ? unit(rounded(plane_.along)) : Vec{}, n = past_ - dot(past_, e) * e;
+    if (length(n) > kNothing * length(past_)) return unit(n - dot(n, e) * e);
+    if (length(past_) > 0) return unit(past_);
+    if (near_.lower > 0) return vec(near_.direction);
+    return thin ? square_to(e) : wound();
   }
 
-  // Where it came from: within the plane; or square to the longest edge, or along it, end on end. At rest the
-  // winding decides, or, without one, any direction square to the edge.
-  Vec touching(const Vec& across) const {
-    const Vec e = plane.resolved ? Vec{} : unit(plane.along), n = past() - dot(past(), e) * e;
-    if (std::sqrt(dot(n, n)) > 4 * noise) return unit(n - dot(n, e) * e);
-    if (std::sqrt(dot(past(), past())) > 4 * noise) return unit(past());
-    return plane.resolved ? wound(across) : square_to(e);
-  }
-  Vec wound(const Vec& across) const { return plane.swapped != odd(motion.axes) ? -1 * across : across; }
+  const ExactPair& pair_;
+  const Differences<DoubleDouble>& d_;
+  const ClosestPoints& near_;
+  const Plane<DoubleDouble> plane_;
+  const Vec past_;
+  const double t_;
+  const bool odd_axes_;
+  Vec across_{};  // a x b
 };
 
 }  // namespace
 
 ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
                            bool parting) {
-  const int v[4] = {vertices[0], vertices[1], vertices[2], vertices[3]};
-  const Corners corners = make_corners(kind, motion, v);
-  const Differences d0 = differences(kind, corners, 0), d1 = differences(kind, corners, 1);
-  const Differences d{mix(d0.q, d1.q, t), mix(d0.a, d1.a, t), mix(d0.b, d1.b, t)};
-  double longest = 0;
-  for (const Differences* at : {&d0, &d1})
-    longest = std::max({longest, std::sqrt(dot(at->a, at->a)), std::sqrt(dot(at->b, at->b))});
-  // Each difference is rounded once, then mixed with 3u: 4u of its size; p1 - p2 is a sum of three such, each
-  // product and sum rounded: below 12u (rho + 2 longest), and an edge is no longer than 2 rho.
-  const double edge_noise = 4 * kU * longest, noise = 12 * kU * (corners.rho + 2 * longest);
-  const Plane plane = plane_of(d, edge_noise);
-  const Nearest near = rounded(kind, nearest(kind, d, plane));
-  const Vec apart = d.at(near.U, near.V), moved = d1.at(near.U, near.V) - d0.at(near.U, near.V);
-  const Vec n = Contact{kind, motion, vertices, t, parting, noise, plane, near.inside, apart, moved}.normal();
+  const ExactPair pair = exact_pair(kind, motion, vertices);
+  const PreciseMotion precise(kind, pair.t0, pair.t1);
+  const Differences<DoubleDouble> d = precise.at(t);
+  const ClosestPoints near = precise_closest_points(d, t == 0 ? 0 : PreciseMotion::kBlur);
+  const VecOf<DoubleDouble> moved = motion_of(precise, near.weights);
+  const bool inside =
+      near.square && std::none_of(near.weights, near.weights + 4, [](double w) { return w == 0; });
   ContactFrame r;
-  r.weight = weights(kind, near);
-  for (int i = 0; i < 3; ++i) r.normal[std::size_t(motion.axes[std::size_t(i)])] = n[i];
-  r.gap = std::sqrt(dot(apart, apart)) * corners.unit;
-  r.speed = dot(n, moved) * corners.unit;
-  r.degenerate = !plane.resolved || !near.inside;
+  Vec n = vec(near.direction);
+  if (!(near.lower > (inside ? 0 : kResolved * precise.size))) {
+    const Vec past = rounded((parting ? 1.0 : -1.0) * moved);
+    const Touching touching(pair, d, near, past, t, odd(motion.axes));
+    const int side = inside ? touching.side() : 0;
+    n = inside ? touching.inside(side) : touching.at_boundary();
+    r.degenerate = side == 0;
+  }
+  std::copy(near.weights, near.weights + 4, r.weight.begin());
+  for (int i = 0; i < 3; ++i) r.normal[std::size_t(motion.axes[std::size_t(i)])] = n[i] + 0.0;
+  r.gap = near.distance * precise.unit;
+  r.speed = dot(VecOf<DoubleDouble>{{n[0], n[1], n[2]}}, moved).hi * precise.unit + 0.0;
   return r;
 }
 
@@ -228,14 +142,14 @@ void contact_frames(Kernel kernel, PairKind kind, const Motion& motion, const st
   KernelPairs pairs{};
   pairs.x = motion.x.data();
   for (std::size_t first = 0; first < count; first += kAtOnce) {
-    pairs.vertices = reinterpret_cast<const int(*)[4]>(vertices + first);
+    pairs.vertices = reinterpret_cast<const int (*)[4]>(vertices + first);
     pairs.count = int(std::min(kAtOnce, count - first));
     of_kind(pairs, t + first, found);
     for (int i = 0; i < pairs.count; ++i) {
       const KernelFrame& f = found[i];
       const std::size_t row = first + std::size_t(i);
       ContactFrame& r = frames[row];
-      if (!f.ordinary || parting[row]) {
+      if (!f.ordinary) {
         r = contact_frame(kind, motion, vertices[row], t[row], parting[row]);
         continue;
       }

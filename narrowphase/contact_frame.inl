@@ -1,9 +1,11 @@
-// Kernel text: contact points and normal of ordinary contacts (contact_frame.hpp), in double lanes: closest points well inside both
-// primitives, a resolved cross product, a side that this time or the motion tells. Others are left to the scalar code.
+// Kernel text: contact points and normal of ordinary contacts (contact_frame.hpp), in double lanes: closest points certainly inside
+// both primitives, a resolved cross product, a gap and a motion along it that are more than rounding. Others are left to the scalar
+// code.
 //
-// q, a, b relative to the pair, linear in t: p1 - p2 is q - U a - V b (vertex-face), or minus that (edge-edge). As there, each difference is rounded once and mixed with 3u:
-// 4u of its size; p1 - p2 is a sum of three: below 12u (|q| + 2 longest). 2^10 times that noise across the longer edge
-// leaves a normal good to 2^-10, and a side is told by 4 times it.
+// q, a, b relative to the pair, linear in t: p1 - p2 is q - U a - V b (vertex-face), or minus that (edge-edge). Each difference is
+// rounded once and mixed with 3u: 4u of its size; p1 - p2 is a sum of three: below 12u (|q| + 2 longest), and by as much the foot is
+// off within the plane. Four times that tells a side, of the plane or of an edge. 2^30 times the edges' noise across the longer one
+// leaves a normal good to 2^-30.
 
 template <class V>
 inline V squared_size(const V (&x)[2][3]) {
@@ -34,7 +36,7 @@ inline void frame_at(const RelativeMotion<V>& r, V t, Frame<V>& f) {
   for (int i = 0; i < 3; ++i) across[i] = other[i] - share * along[i];
   const V rest = dot(across, along) / size;
   for (int i = 0; i < 3; ++i) across[i] = across[i] - rest * along[i];
-  const V width = dot(across, across), resolution = V::all(0x1p10) * edge_noise;
+  const V width = dot(across, across), resolution = V::all(0x1p30) * edge_noise;
   auto ordinary = (size > V::all(0x1p-200)) & (width > V::all(0x1p-200)) & (width > resolution * resolution);
 
   V x = zero<V>(), y = zero<V>();
@@ -47,8 +49,11 @@ inline void frame_at(const RelativeMotion<V>& r, V t, Frame<V>& f) {
   }
   f.u = (one<V>() + select(swapped, y, x)) - one<V>();
   f.v = (one<V>() + select(swapped, x, y)) - one<V>();
-  ordinary = ordinary & (f.u > zero<V>()) & (f.v > zero<V>());
-  ordinary = ordinary & (K == 3 ? f.u + f.v < one<V>() : (f.u < one<V>()) & (f.v < one<V>()));
+  // The foot is at least half a coordinate times the width away from the side where that coordinate is 0.
+  const V to_side = K == 3 ? min((one<V>() - f.u) - f.v, min(f.u, f.v))
+                           : min(min(f.u, f.v), min(one<V>() - f.u, one<V>() - f.v));
+  const V certain = V::all(4) * noise;
+  ordinary = ordinary & (to_side * sqrt(width) > certain + certain);
 
   const V sign = V::all(K == 3 ? 1 : -1);
   V apart[3], moved[3], n[3];
@@ -58,10 +63,9 @@ inline void frame_at(const RelativeMotion<V>& r, V t, Frame<V>& f) {
   }
   cross(along, across, n);
   normalise(n);
-  const V here = dot(n, apart), speed = dot(n, moved), certain = V::all(4) * noise;
-  const auto told_here = abs(here) > certain;
-  f.ordinary = ordinary & (told_here | ((t > zero<V>()) & (abs(speed) > certain)));
-  const auto below = select(told_here, here, zero<V>() - speed) < zero<V>();
+  const V here = dot(n, apart), speed = dot(n, moved);
+  f.ordinary = ordinary & (abs(here) > certain) & (abs(speed) > certain);
+  const auto below = here < zero<V>();
   for (int i = 0; i < 3; ++i) f.normal[i] = select(below, zero<V>() - n[i], n[i]);
   f.gap = sqrt(dot(apart, apart));
   f.speed = select(below, zero<V>() - speed, speed);

@@ -4,6 +4,7 @@
 
 #include "narrowphase/exact_complete.hpp"
 #include "narrowphase/exact_coplanar.hpp"
+#include "narrowphase/exact_grid.hpp"
 #include "narrowphase/exact_search.hpp"
 
 namespace onset {
@@ -12,59 +13,20 @@ namespace {
 // Deeper searches are degenerate as a rule, and the complete decision is then quicker.
 constexpr int kDeepest = 24;
 
-// x = mantissa 2^exponent but for the sign and a common factor.
-struct Bits {
-  std::uint64_t mantissa;
-  int exponent;
-  bool negative;
-};
-Bits split(double x) {
-  const std::uint64_t b = double_bits(x);
-  const int exponent = int(b >> 52 & 0x7ff);
-  const std::uint64_t fraction = b & 0xfffffffffffffull;
-  return {exponent == 0 ? fraction : fraction | 1ull << 52, std::max(exponent, 1), b >> 63 != 0};
-}
-
-// All coordinates are integers of magnitude below 2^bits in units of 2^last.
-struct Grid {
-  int last, bits;
-};
 Grid grid_of(const ExactPair& pair) {
-  int last = 4096, top = 0;
+  Grid grid;
   for (const auto* points : {&pair.t0, &pair.t1})
-    for (const double* p : *points)
-      for (int a = 0; a < 3; ++a) {
-        const Bits x = split(p[a]);
-        if (x.mantissa == 0) continue;
-        last = std::min(last, x.exponent + __builtin_ctzll(x.mantissa));
-        top = std::max(top, x.exponent + 64 - __builtin_clzll(x.mantissa));
-      }
-  return {last, std::max(top - last, 0)};
-}
-
-std::int64_t placed(std::int64_t, std::uint64_t mantissa, int shift) {
-  return std::int64_t(mantissa << shift);
-}
-template <int N>
-Wide<N> placed(const Wide<N>&, std::uint64_t mantissa, int shift) {
-  return shifted(Wide<N>(std::int64_t(mantissa)), shift);
+    for (const double* p : *points) grid.add(p);
+  return grid;
 }
 
 template <class C>
 using IntegerPoints = std::array<std::array<C, 3>, 4>;
 
 template <class C>
-IntegerPoints<C> on_grid(const double* const (&points)[4], int last) {
+IntegerPoints<C> points_on_grid(const double* const (&points)[4], int last) {
   IntegerPoints<C> r;
-  for (int i = 0; i < 4; ++i)
-    for (int a = 0; a < 3; ++a) {
-      const Bits x = split(points[i][a]);
-      const int shift = x.exponent - last;
-      const C size = x.mantissa == 0 ? C(0)
-                     : shift < 0     ? placed(C(0), x.mantissa >> -shift, 0)
-                                     : placed(C(0), x.mantissa, shift);
-      r[i][a] = x.negative ? -size : size;
-    }
+  for (std::size_t i = 0; i < 4; ++i) r[i] = on_grid<C>(points[i], last);
   return r;
 }
 
@@ -105,20 +67,20 @@ Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerP
 
 // Coordinates of up to 61 bits in machine words; first with a cubic of 128 bits where that is enough.
 Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
-  const auto t0 = on_grid<std::int64_t>(pair.t0, grid.last), t1 = on_grid<std::int64_t>(pair.t1, grid.last);
-  const int shallow = depth_for(grid.bits, 128);
+  const auto t0 = points_on_grid<std::int64_t>(pair.t0, grid.last), t1 = points_on_grid<std::int64_t>(pair.t1, grid.last);
+  const int shallow = depth_for(grid.bits(), 128);
   if (shallow >= 4) {
-    const Decided r = search<8, std::int64_t, Int128, Int128>(pair, t0, t1, grid.bits, shallow, want_time);
+    const Decided r = search<8, std::int64_t, Int128, Int128>(pair, t0, t1, grid.bits(), shallow, want_time);
     if (r.final) return r;
   }
-  return search<8, std::int64_t, Int128, Wide<4>>(pair, t0, t1, grid.bits, depth_for(grid.bits, 256),
+  return search<8, std::int64_t, Int128, Wide<4>>(pair, t0, t1, grid.bits(), depth_for(grid.bits(), 256),
                                                   want_time);
 }
 
 // Coordinates of up to 120 bits in two limbs.
 Decided search_two_limbs(const ExactPair& pair, const Grid& grid, bool want_time) {
-  const auto t0 = on_grid<Wide<2>>(pair.t0, grid.last), t1 = on_grid<Wide<2>>(pair.t1, grid.last);
-  return search<12, Wide<2>, Wide<4>, Wide<7>>(pair, t0, t1, grid.bits, depth_for(grid.bits, 64 * 7),
+  const auto t0 = points_on_grid<Wide<2>>(pair.t0, grid.last), t1 = points_on_grid<Wide<2>>(pair.t1, grid.last);
+  return search<12, Wide<2>, Wide<4>, Wide<7>>(pair, t0, t1, grid.bits(), depth_for(grid.bits(), 64 * 7),
                                                want_time);
 }
 
@@ -126,9 +88,9 @@ constexpr int kWide = 8;
 Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool want_time) {
   using W = Wide<kWide>;
   const Dyadic start = to_dyadic(from);
-  const int bits = grid.bits + start.exponent + 1, depth = depth_for(bits, 64 * kWide);
+  const int bits = grid.bits() + start.exponent + 1, depth = depth_for(bits, 64 * kWide);
   if (depth < 4) return {Answer::unknown, true, {}};
-  auto t0 = on_grid<W>(pair.t0, grid.last), t1 = on_grid<W>(pair.t1, grid.last);
+  auto t0 = points_on_grid<W>(pair.t0, grid.last), t1 = points_on_grid<W>(pair.t1, grid.last);
   if (from > 0) {  // the positions then, in units that make them integers
     const W one = shifted(W(1), start.exponent), passed(start.numerator);
     for (int i = 0; i < 4; ++i)
@@ -142,8 +104,8 @@ Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool w
 
 Decided search(const ExactPair& pair, double from, bool want_time) {
   const Grid grid = grid_of(pair);
-  if (from > 0 || grid.bits > 120) return search_wide(pair, grid, from, want_time);
-  return grid.bits <= 61 ? search_narrow(pair, grid, want_time) : search_two_limbs(pair, grid, want_time);
+  if (from > 0 || grid.bits() > 120) return search_wide(pair, grid, from, want_time);
+  return grid.bits() <= 61 ? search_narrow(pair, grid, want_time) : search_two_limbs(pair, grid, want_time);
 }
 
 }  // namespace

@@ -58,6 +58,19 @@ Polynomial dot(const std::array<Polynomial, 3>& u, const std::array<Polynomial, 
   return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
+RelativeVectors<Polynomial> relative_motion(PairKind kind, const IntegerPoints& t0, const IntegerPoints& t1) {
+  std::array<std::array<Polynomial, 3>, 4> x;
+  for (int i = 0; i < 4; ++i)
+    for (int a = 0; a < 3; ++a) x[i][a] = Polynomial({t0[i][a], t1[i][a] - t0[i][a]});
+  return relative_vectors(kind, x);
+}
+
+Polynomial derivative(const Polynomial& p) {
+  std::vector<Integer> c;
+  for (int i = 1; i <= p.degree(); ++i) c.push_back(p[i] * i);
+  return Polynomial(std::move(c));
+}
+
 // As the rational k / 2^depth.
 double rounded_down(const Integer& k, unsigned depth) {
   if (k.is_zero()) return 0;
@@ -95,11 +108,8 @@ DoubleBracket bracket(const IsolatedRoot& root, bool adjacent) {
 // coordinates, continuous there, would be inside a little earlier as well.
 class CompleteDecision {
  public:
-  CompleteDecision(PairKind kind, const IntegerPoints& t0, const IntegerPoints& t1) : kind_(kind) {
-    std::array<std::array<Polynomial, 3>, 4> x;
-    for (int i = 0; i < 4; ++i)
-      for (int a = 0; a < 3; ++a) x[i][a] = Polynomial({t0[i][a], t1[i][a] - t0[i][a]});
-    r_ = relative_vectors(kind, x);
+  CompleteDecision(PairKind kind, const IntegerPoints& t0, const IntegerPoints& t1)
+      : kind_(kind), r_(relative_motion(kind, t0, t1)) {
     for (int k = 0; k < 3; ++k) n_[k] = cross(r_.a, r_.b, k);
     segments_ = boundary_of(kind, r_, boundary_);
   }
@@ -190,6 +200,21 @@ std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair, bool 
     first = first ? DoubleBracket{std::min(first->lo, t.lo), std::min(first->hi, t.hi)} : t;
   });
   return first;
+}
+
+// By Taylor: the first derivative that is not 0 at t decides, the odd ones with the other sign.
+int side_before(const ExactPair& pair, double t) {
+  IntegerPoints t0, t1;
+  set_points(pair, t0, t1);
+  const RelativeVectors<Polynomial> r = relative_motion(pair.kind, t0, t1);
+  const Dyadic time = to_dyadic(t);
+  int turn = 1;
+  for (Polynomial f = dot(r.q, {cross(r.a, r.b, 0), cross(r.a, r.b, 1), cross(r.a, r.b, 2)}); !f.is_zero();
+       f = derivative(f), turn = -turn) {
+    const int s = sign_at(f, time.numerator, unsigned(time.exponent));
+    if (s != 0 || t == 0) return turn * s;
+  }
+  return 0;
 }
 
 }  // namespace onset

@@ -1,5 +1,5 @@
 // Polynomials with integer coefficients of any size, and exact signs at their roots. For exact_complete.cpp
-// only.
+// and edge_face.cpp only.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>

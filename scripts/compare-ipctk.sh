@@ -1,5 +1,6 @@
 #!/bin/sh
-# Measures onset against ipctk 1.6.1 on the same frames in the same run, and its broad phase against FCL's and Embree's.
+# Measures onset against ipctk 1.6.1 on the same frames in the same run, intersections at rest included, and its broad phase
+# against FCL's and Embree's.
 #   compare-ipctk.sh [NAME=A,B ...] [--repeats N] [--threads N ...]     frames of a scene; default: all scenes of ONSET_DATA
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -27,6 +28,10 @@ case "${1:-}" in
 esac
 
 "$venv/bin/python" "$root/apps/bench/compare_ipctk.py" --server "$build/apps/bench/onset_bench_server" "$@"
+
+echo
+echo "Intersections of one frame, one thread, CPU time"
+"$venv/bin/python" "$root/apps/bench/compare_intersections.py" --server "$build/apps/bench/onset_bench_server" "$@"
 
 echo
 echo "Broad phases of other libraries, one thread, swept boxes, CPU time"

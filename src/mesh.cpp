@@ -8,8 +8,12 @@
 #include <string>
 
 #include "base/fixed_cache.hpp"
+#include "base/primitive.hpp"
 #include "base/primitive_filter.hpp"
 #include "base/spares.hpp"
+#include "onset/intersections.hpp"
+#include "src/edges_of_faces.hpp"
+#include "src/named_pairs.hpp"
 
 namespace onset {
 namespace {
@@ -56,9 +60,12 @@ MeshData make_data(std::ptrdiff_t vertices, std::vector<std::array<int, 2>> edge
 
 }  // namespace
 
-Mesh::Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces)
-    : data_(std::make_shared<MeshData>(make_data(checked_count(vertices), checked<2>("edge", edges, vertices),
-                                                 checked<3>("face", faces, vertices)))) {}
+Mesh::Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces) {
+  auto E = checked<2>("edge", edges, checked_count(vertices));
+  auto F = checked<3>("face", faces, vertices);
+  require_edges_of_faces(E, F);
+  data_ = std::make_shared<MeshData>(make_data(vertices, std::move(E), std::move(F)));
+}
 
 Mesh::Mesh(std::ptrdiff_t vertices, const Indices& faces) {
   auto F = checked<3>("face", faces, checked_count(vertices));
@@ -213,6 +220,13 @@ void Mesh::set_points(const std::vector<int>& ids) {
     data.edges.resize(edges);
     for (const int v : ids) data.edges.push_back({v, v});
     data.num_points = int(ids.size());
+    for (const PairKind kind : {PairKind::edge_edge, kEdgeFace}) {
+      auto& pairs = data.excluded_pairs[std::size_t(kind)];
+      const auto of_points = [&](const std::array<int, 2>& p) {
+        return std::size_t(kind == kEdgeFace ? p[0] : p[1]) >= edges;  // a < b
+      };
+      pairs.erase(std::remove_if(pairs.begin(), pairs.end(), of_points), pairs.end());
+    }
   });
 }
 
@@ -262,6 +276,21 @@ void Mesh::set_excluded_bodies(const std::vector<std::array<int, 2>>& pairs) {
 void Mesh::set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs) {
   auto checked = checked_pairs("excluded vertices", pairs, num_vertices());
   change([&](MeshData& data) { data.excluded_vertices = std::move(checked); });
+}
+
+void Mesh::set_excluded_pairs(const std::vector<Pair>& pairs) {
+  NamedPairs named("excluded pairs", *data_);
+  for (const Pair& p : pairs) named.add(p.kind, p.a, p.b);
+  change([&](MeshData& data) {
+    for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
+      data.excluded_pairs[std::size_t(kind)] = named.of(kind);
+  });
+}
+
+void Mesh::set_excluded_intersections(const std::vector<Intersection>& pairs) {
+  NamedPairs named("excluded intersections", *data_);
+  for (const Intersection& p : pairs) named.add(kEdgeFace, p.edge, p.face);
+  change([&](MeshData& data) { data.excluded_pairs[std::size_t(kEdgeFace)] = named.of(kEdgeFace); });
 }
 
 void Mesh::set_weld(bool on) {

@@ -9,6 +9,7 @@
 //   dump-pairs FILE                    pairs whose swept boxes overlap, raw: int64 #vertex-face, #edge-edge;
 //   int32 pairs of these active-set THREADS TOLERANCE       the calls, at a relative tolerance step THREADS
 //   TOLERANCE pairs THREADS                      positions to stored pairs
+//   intersections THREADS END, has-intersections THREADS END    of one frame (END: 0 or 1)
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -72,13 +73,43 @@ class Server {
     int threads = 1;
     onset::Options options;
     words >> threads;
-    if (what != "pairs") words >> options.relative_tolerance;
-    if (!words || threads < 1) throw app::UsageError("not understood: " + line);
+    const bool at_rest = what == "intersections" || what == "has-intersections";
+    int end = 0;
+    if (at_rest)
+      words >> end;
+    else if (what != "pairs")
+      words >> options.relative_tolerance;
+    if (!words || threads < 1 || end < 0 || end > 1) throw app::UsageError("not understood: " + line);
     options.threads = threads;
-    return measure(what, options);
+    return at_rest ? look_at_rest(what, end == 0 ? scene_.x_t0 : scene_.x_t1, options) : measure(what, options);
   }
 
  private:
+  static void add_times(Json& result, const app::Seconds& seconds) {
+    result["wall"] = seconds.wall;
+    result["cpu"] = seconds.cpu;
+  }
+
+  template <class Positions>
+  Json look_at_rest(const std::string& what, const Positions& x, const onset::Options& options) {
+    Json result;
+    const app::Stopwatch watch;
+    app::Seconds seconds;
+    if (what == "has-intersections") {
+      const bool any = onset::has_intersections(scene_.mesh, x, options);
+      seconds = watch.elapsed();
+      result = {{"any", any}};
+    } else {
+      const onset::Intersections found = onset::intersections(scene_.mesh, x, options);
+      seconds = watch.elapsed();
+      for (const auto kind : {onset::IntersectionKind::crossing, onset::IntersectionKind::touching,
+                              onset::IntersectionKind::overlapping})
+        result[onset::to_string(kind)] = found.count(kind);
+    }
+    add_times(result, seconds);
+    return result;
+  }
+
   Json measure(const std::string& what, const onset::Options& options) {
     Json result;
     const app::Stopwatch watch;
@@ -100,8 +131,7 @@ class Server {
     } else {
       throw app::UsageError("unknown command: " + what);
     }
-    result["wall"] = seconds.wall;
-    result["cpu"] = seconds.cpu;
+    add_times(result, seconds);
     return result;
   }
 

@@ -19,6 +19,11 @@ std::vector<bool> flags(const char* option, const std::vector<int>& bodies, int 
 
 }  // namespace
 
+void add_weld(CLI::App& command, bool& weld) {
+  command.add_flag("--weld", weld,
+                   "Vertices at one place at both ends of the step count as one, as the copies at a seam do");
+}
+
 void add_body_options(CLI::App& command, BodyArguments& a) {
   command.add_option("--bodies", a.bodies, "What a body is: all of the mesh, or each connected component")
       ->check(CLI::IsMember({"one", "components"}))
@@ -35,9 +40,11 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
       ->expected(1)
       ->take_all();
   command.add_flag("--rigid", a.all_rigid, "No body meets itself");
+  add_weld(command, a.weld);
 }
 
-void set_bodies(const BodyArguments& a, onset::Mesh& mesh) {
+void set_bodies(const BodyArguments& a, Scene& scene) {
+  onset::Mesh& mesh = scene.mesh;
   if (a.bodies == "components") mesh.set_bodies(mesh.components());
   const int count = mesh.num_bodies();
   const std::vector<bool> fixed = flags("--static-body", a.fixed, count);
@@ -45,6 +52,7 @@ void set_bodies(const BodyArguments& a, onset::Mesh& mesh) {
   if (a.all_rigid) rigid.assign(rigid.size(), true);
   if (!a.fixed.empty()) mesh.set_static(mesh.of_bodies(fixed));
   if (a.all_rigid || !a.rigid.empty()) mesh.set_rigid(rigid);
+  if (a.weld) mesh.set_weld(true), scene.welded = true;
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "arguments.hpp"
+#include "bodies.hpp"
 #include "commands.hpp"
 #include "error.hpp"
 #include "generated.hpp"
@@ -19,6 +20,7 @@ struct Inputs : Arguments {
   std::string a, b;
   std::vector<std::int64_t> cloths;
   int repeats = 5, refine = 0;
+  bool weld = false;
 };
 
 struct NamedCost {
@@ -29,14 +31,26 @@ struct NamedCost {
   std::ptrdiff_t primitives() const { return vertices + edges + faces; }
 };
 
-Scene to_scene(Frames frames) {
-  onset::Mesh mesh(frames.x_t0.rows(), frames.faces);
-  return {std::move(mesh), std::move(frames.x_t0), std::move(frames.x_t1)};
+// Whether all of its edges are those of faces.
+bool is_surface(const onset::Mesh& mesh) {
+  Faces faces(mesh.num_faces(), 3);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    for (int c = 0; c < 3; ++c) faces(f, c) = mesh.face(f)[std::size_t(c)];
+  return onset::edges(faces).rows() == mesh.num_edges();
 }
 
-Scene read_refined(const std::string& a, const std::string& b, int times) {
-  Scene scene = read_scene(a, b);
-  if (times == 0) return scene;
+Scene to_scene(Frames frames) {
+  onset::Mesh mesh(frames.x_t0.rows(), frames.faces);
+  return {std::move(mesh), std::move(frames.x_t0), std::move(frames.x_t1), {}, "", false};
+}
+
+Scene read_refined(const Inputs& inputs, int times) {
+  Scene scene = read_scene(inputs.a, inputs.b);
+  if (times == 0) {
+    if (inputs.weld) scene.mesh.set_weld(true);
+    return scene;
+  }
+  if (!is_surface(scene.mesh)) throw UsageError("bench: --refine divides faces, " + inputs.a + " has wires or points");
   Frames frames{std::move(scene.x_t0), std::move(scene.x_t1), Faces(scene.mesh.num_faces(), 3)};
   for (Eigen::Index f = 0; f < frames.faces.rows(); ++f)
     for (int c = 0; c < 3; ++c) frames.faces(f, c) = scene.mesh.face(f)[std::size_t(c)];
@@ -143,7 +157,7 @@ void write_csv(Output& csv, const std::vector<NamedCost>& costs) {
 }
 
 // The scenes one after another, each as it is and then refined; only one is in memory at a time.
-std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& options) {
+std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& options, Outputs& outputs) {
   std::vector<NamedCost> costs;
   const auto each_refinement = [&](const std::string& name, const std::function<Scene(int)>& make) {
     for (int times = 0; times <= inputs.refine; ++times) {
@@ -153,7 +167,11 @@ std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& opt
     }
   };
   if (!inputs.a.empty())
-    each_refinement(inputs.a, [&](int times) { return read_refined(inputs.a, inputs.b, times); });
+    each_refinement(inputs.a, [&](int times) {
+      Scene scene = read_refined(inputs, times);
+      for (const std::string& note : scene.notes) outputs.note(note);
+      return scene;
+    });
   for (const std::int64_t n : inputs.cloths)
     each_refinement(format("layered cloth, %lld triangles", static_cast<long long>(n)),
                     [&](int times) { return to_scene(refined(layered_cloth(n), times)); });
@@ -165,8 +183,10 @@ void run_bench(const Inputs& inputs) {
   if (inputs.a.empty() == inputs.cloths.empty())
     throw UsageError("bench: either two frames A and B or --cloth");
   if (!inputs.a.empty() && inputs.b.empty()) throw UsageError("bench: B is missing");
+  if (inputs.weld && (inputs.a.empty() || inputs.refine > 0))
+    throw UsageError("bench: --weld is for the frames A and B as they are, not refined");
   Outputs outputs(inputs);
-  const std::vector<NamedCost> costs = bench_all(inputs, options);
+  const std::vector<NamedCost> costs = bench_all(inputs, options, outputs);
   if (outputs.csv()) write_csv(*outputs.csv(), costs);
   Json json = {{"repeats", inputs.repeats}, {"scenes", Json::array()}};
   std::string text;
@@ -183,8 +203,8 @@ void add_bench(CLI::App& app, Run& run) {
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command =
       app.add_subcommand("bench", "Times, pairs at each stage and memory of the library's calls on a scene");
-  command->add_option("A", inputs->a, "Mesh at the start of the step: .ply, .obj or .off, triangles");
-  command->add_option("B", inputs->b, "The same mesh at its end: the same faces in the same order");
+  command->add_option("A", inputs->a, kMeshHelp);
+  command->add_option("B", inputs->b, kEndHelp);
   command
       ->add_option("--cloth", inputs->cloths,
                    "Instead of A and B, a generated scene of about COUNT triangles; several for a curve")
@@ -202,6 +222,7 @@ void add_bench(CLI::App& app, Run& run) {
       ->type_name("COUNT")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
+  add_weld(*command, inputs->weld);
   add_common_options(*command, *inputs, "one row a scene, its size and the cost of the active set");
   command->callback([&run, inputs] { run = [inputs] { run_bench(*inputs); }; });
 }

@@ -66,6 +66,7 @@ void report(const Scene& scene, const Inputs& inputs) {
     text += rest.size() > 10 ? " ...\n" : "\n";
   }
   Outputs outputs(inputs);
+  for (const std::string& note : scene.notes) outputs.note(note);
   outputs.finish(json, text);
 }
 
@@ -75,7 +76,7 @@ void add_plan(CLI::App& app, Run& run) {
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command =
       app.add_subcommand("plan", "Which pairs a scene can have at all, and why it has no others");
-  command->add_option("A", inputs->a, "Mesh: .ply, .obj or .off, triangles")->required();
+  command->add_option("A", inputs->a, "Mesh: .ply, .obj, .off or .stl")->required();
   command->add_option("B", inputs->b, "The same mesh later: tells which bodies are at rest");
   add_body_options(*command, *inputs);
   command->add_option("--json", inputs->json, "Write the result as JSON to FILE, or to stdout for -")
@@ -83,7 +84,7 @@ void add_plan(CLI::App& app, Run& run) {
   command->callback([&run, inputs] {
     run = [inputs] {
       Scene scene = read_scene(inputs->a, inputs->b.empty() ? inputs->a : inputs->b);
-      set_bodies(*inputs, scene.mesh);
+      set_bodies(*inputs, scene);
       report(scene, *inputs);
     };
   });

@@ -17,5 +17,6 @@ void add_demo(CLI::App& app, Run& run);
 void add_bench(CLI::App& app, Run& run);
 void add_trade(CLI::App& app, Run& run);
 void add_plan(CLI::App& app, Run& run);
+void add_check(CLI::App& app, Run& run);
 
 }  // namespace app

@@ -27,11 +27,12 @@ void describe(CLI::App& app) {
       "  onset demo                                   a scene of its own, no files needed\n"
       "  onset step before.ply after.ply              how far the motion can go\n"
       "  onset active-set a.obj b.obj --csv -         what touches, one row a pair\n"
+      "  onset check before.ply                       whether a step can start there, and what is in the way\n"
       "  onset queries data/edge-edge/*.csv           answers against their truth\n"
       "  onset step a.obj b.obj --dump slow           the queries that matter, for onset replay slow-*.csv\n"
       "  onset trade before.ply after.ply             what each setting costs and gives, on this scene\n"
       "Exit status: 0 done, whatever the outcome is; 1 bad input, or output that cannot be written; 2 wrong "
-      "usage.");
+      "usage; 3 check has found something.");
 }
 
 }  // namespace
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
   app::add_active_set(app, run);
   app::add_candidates(app, run);
   app::add_plan(app, run);
+  app::add_check(app, run);
   app::add_queries(app, run);
   app::add_replay(app, run);
   app::add_demo(app, run);
@@ -54,6 +56,8 @@ int main(int argc, char** argv) {
     if (!run) throw app::UsageError("a subcommand is required (see onset --help)");
     run();
     return app::kExitOk;
+  } catch (const app::NotClean&) {
+    return app::kExitNotClean;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     return fail(app::kExitUsage, std::string(e.what()) + " (see onset --help)");

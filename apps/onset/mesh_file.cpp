@@ -1,93 +1,71 @@
 #include "mesh_file.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
 
 #include "error.hpp"
-#include "polygon_soup.hpp"
+#include "input_file.hpp"
+#include "mesh_readers.hpp"
 
 namespace app {
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& cause) {
-  throw InputError(path + ": " + cause);
+using Reader = MeshFile (*)(const std::string& path, std::string_view bytes);
+
+std::string extension(const std::string& path) {
+  std::string ext = std::filesystem::path(path).extension().string();
+  std::transform(ext.begin(), ext.end(), ext.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ext;
 }
 
-std::ptrdiff_t first_bad_point(const PolygonSoup& soup) {  // the number of points when there is none
-  const auto finite = [](const std::array<double, 3>& p) {
-    return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-  };
-  return std::find_if_not(soup.points.begin(), soup.points.end(), finite) - soup.points.begin();
+// Formats that people have, and what turns them into one that is read.
+std::string way_out(const std::string& path, const std::string& ext) {
+  const std::string stem = path.substr(0, path.size() - ext.size());
+  for (const char* known : {".msh", ".vtk", ".vtu", ".xdmf", ".inp", ".med", ".bdf", ".mesh", ".e", ".exo"})
+    if (ext == known)
+      return " is not read: convert it with 'meshio convert " + path + " " + stem +
+             ".ply' (pip install meshio; triangles and quads, not tetrahedra)";
+  for (const char* known : {".gltf", ".glb", ".fbx", ".dae", ".3mf", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".blend"})
+    if (ext == known) return " is not read: export it as .obj or .ply, from Blender say";
+  for (const char* known : {".stp", ".step", ".igs", ".iges", ".brep"})
+    if (ext == known)
+      return " is not read: mesh it with 'gmsh -2 " + path + " -o " + stem + ".stl'";
+  return ext.empty() ? "no extension" : "unknown extension " + ext;
 }
 
-void check_points(const std::string& path, const PolygonSoup& soup) {
-  const std::ptrdiff_t bad = first_bad_point(soup);
-  if (bad < std::ptrdiff_t(soup.points.size()))
-    fail(path, "vertex " + std::to_string(bad) + " is not three finite numbers");
-}
-
-void check_polygons(const std::string& path, const PolygonSoup& soup) {
-  const auto n = static_cast<long long>(soup.points.size());
-  const std::string range = "[0, " + std::to_string(n) + ")";
-  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
-    const std::vector<long long>& polygon = soup.polygons[f];
-    const std::string face = "face " + std::to_string(f), corners = std::to_string(polygon.size());
-    if (polygon.empty()) fail(path, face + " has no vertices, or the file ends before it");
-    if (polygon.size() != 3) fail(path, face + " has " + corners + " vertices, 3 expected");
-    for (const long long index : polygon) {
-      const bool unread = index == kUnreadIndex;
-      if (unread) fail(path, face + " has a vertex index that is missing or not in " + range);
-      if (index < 0 || index >= n)
-        fail(path, face + " has vertex index " + std::to_string(index) + ", not in " + range);
-    }
-  }
-}
-
-// CGAL gave up on an OFF file, for which it sizes everything first, and zeroes the vertex that it fails on.
-[[noreturn]] void explain_off_stop(const std::string& path, const PolygonSoup& soup) {
-  if (soup.points.empty()) fail(path, "cannot be read: no vertices");
-  const std::ptrdiff_t unread = first_bad_point(soup), points = std::ptrdiff_t(soup.points.size());
-  const bool no_face = soup.polygons.empty() || soup.polygons[0].empty();
-  if (unread < points || no_face)
-    fail(path, "vertex " + std::to_string(std::max<std::ptrdiff_t>(unread, 1) - 1) +
-                   " is not three finite numbers" + (unread == points ? ", or face 0 is cut off" : ""));
-  check_polygons(path, soup);
-  fail(path, "cannot be read beyond its faces");
-}
-
-// CGAL gave up: on a vertex, on a face, or with a reason of its own.
-[[noreturn]] void explain_stop(const std::string& path, const PolygonSoup& soup) {
-  if (extension(path) == ".off") explain_off_stop(path, soup);
-  check_points(path, soup);
-  check_polygons(path, soup);
-  const std::string vertices = std::to_string(soup.points.size());
-  const std::string faces = std::to_string(soup.polygons.size());
-  const bool at_vertex =
-      soup.reason.empty() ? soup.polygons.empty() : soup.reason.find("vertex") != std::string::npos;
-  if (at_vertex)
-    fail(path, "vertex " + vertices + " is not three finite numbers, or the file ends before it");
-  const std::string reason = soup.reason.empty() ? "" : ": " + soup.reason;
-  fail(path, "cannot be read beyond " + vertices + " vertices and " + faces + " faces" + reason);
-}
-
-MeshFile to_mesh(const std::string& path, const PolygonSoup& soup) {
-  MeshFile mesh{path, Points(soup.points.size(), 3), Faces(soup.polygons.size(), 3)};
-  for (std::size_t v = 0; v < soup.points.size(); ++v)
-    for (int c = 0; c < 3; ++c) mesh.positions(v, c) = soup.points[v][c];
-  for (std::size_t f = 0; f < soup.polygons.size(); ++f)
-    for (int c = 0; c < 3; ++c) mesh.faces(f, c) = soup.polygons[f][c];
-  return mesh;
+std::string read_all(const std::string& path) {
+  std::ifstream in = open_input(path);
+  std::string bytes;
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!unknown) bytes.reserve(size);
+  std::vector<char> chunk(1 << 16);
+  errno = 0;
+  while (in.read(chunk.data(), std::streamsize(chunk.size())) || in.gcount() > 0)
+    bytes.append(chunk.data(), std::size_t(in.gcount()));
+  if (in.bad()) throw InputError(path + ": cannot be read: " + std::strerror(errno));
+  return bytes;
 }
 
 }  // namespace
 
 MeshFile read_mesh(const std::string& path) {
-  const PolygonSoup soup = read_polygon_soup(path);
-  if (!soup.complete) explain_stop(path, soup);
-  check_points(path, soup);
-  check_polygons(path, soup);
-  if (soup.polygons.empty()) fail(path, "no faces");
-  return to_mesh(path, soup);
+  static const std::map<std::string, Reader> readers = {
+      {".obj", read_obj}, {".ply", read_ply}, {".off", read_off}, {".stl", read_stl}};
+  const std::string ext = extension(path);
+  const auto reader = readers.find(ext);
+  open_input(path);  // that it is not there says more than what it is called
+  if (reader == readers.end()) {
+    const std::string out = way_out(path, ext);
+    throw InputError(path + ": " + (out[0] == ' ' ? ext + out : out + ", .obj, .ply, .off or .stl expected"));
+  }
+  const std::string bytes = read_all(path);
+  if (bytes.empty()) throw InputError(path + ": the file is empty");
+  return reader->second(path, bytes);
 }
 
 }  // namespace app

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "arguments.hpp"
 
@@ -39,9 +40,12 @@ class Outputs {
  public:
   explicit Outputs(const Arguments& arguments);
   Output* csv() { return csv_ ? &*csv_ : nullptr; }
-  void finish(const Json& json, const std::string& summary);
+  // What comes before the summary, is the last key, "notes", of the JSON, and on stderr where neither is asked for.
+  void note(const std::string& text) { notes_.push_back(text); }
+  void finish(Json json, const std::string& summary);
 
  private:
+  std::vector<std::string> notes_;
   std::optional<Output> json_, csv_, summary_;
 };
 

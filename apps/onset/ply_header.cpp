@@ -1,75 +1,141 @@
 #include "ply_header.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <set>
-#include <sstream>
+#include <optional>
+
+#include "text_lines.hpp"
 
 namespace app {
 namespace {
 
-const std::set<std::string> kFloatTypes = {"float", "float32", "double", "float64"};
-const std::set<std::string> kTypes = {"char",   "int8",    "uchar",  "uint8",  "short", "int16",
-                                      "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
-                                      "float",  "float32", "double", "float64"};
-const std::set<std::string> kIndexTypes = {"int", "int32", "uint", "uint32"};
+std::optional<PlyType> to_type(std::string_view name) {
+  static const std::map<std::string_view, PlyType> types = {
+      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"float64", PlyType::float64}};
+  const auto found = types.find(name);
+  return found == types.end() ? std::nullopt : std::optional<PlyType>(found->second);
+}
 
-struct Header {
-  std::string element;                        // the one that properties belong to
-  std::map<std::string, std::string> vertex;  // property name -> type
-  bool has_faces = false, has_indices = false;
+template <class Named>
+bool has(const std::vector<Named>& list, std::string_view name) {
+  return std::any_of(list.begin(), list.end(), [&](const Named& n) { return n.name == name; });
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(std::string_view bytes, const MeshBuilder& mesh) : rest_(bytes), mesh_(mesh) {}
+
+  PlyHeader read() {
+    if (!next() || words_.size() != 1 || words_[0] != "ply") fail("not a PLY file");
+    while (next()) {
+      if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
+      if (words_[0] == "end_header") return finish();
+      statement();
+    }
+    fail("the header has no end");
+  }
+
+ private:
+  // The header's lines end as its first one does: what follows a lone CR may be data that starts with LF.
+  bool next() {
+    if (rest_.empty()) return false;
+    if (header_.lines++ == 0) {
+      const std::size_t end = rest_.find_first_of("\r\n");
+      if (end != rest_.npos) line_end_ = rest_.substr(end, rest_.substr(end, 2) == "\r\n" ? 2 : 1);
+    }
+    const std::size_t end = std::min(rest_.find(line_end_), rest_.size());
+    split_words(rest_.substr(0, end), words_);
+    rest_.remove_prefix(std::min(rest_.size(), end + line_end_.size()));
+    return true;
+  }
+
+  void statement() {
+    if (words_[0] == "format") return format();
+    if (words_[0] == "element") return element();
+    if (words_[0] == "property") return property();
+    fail("unknown line in the header: " + quoted(words_));
+  }
+
+  void format() {
+    if (words_.size() != 3 || words_[2] != "1.0") fail("unknown " + quoted(words_));
+    if (words_[1] == "ascii")
+      header_.encoding = PlyHeader::Encoding::ascii;
+    else if (words_[1] == "binary_little_endian")
+      header_.encoding = PlyHeader::Encoding::little_endian;
+    else if (words_[1] == "binary_big_endian")
+      header_.encoding = PlyHeader::Encoding::big_endian;
+    else
+      fail("unknown " + quoted(words_));
+    has_format_ = true;
+  }
+
+  void element() {
+    if (words_.size() != 3) fail("an element has a name and a count, here is " + quoted(words_));
+    const std::optional<std::int64_t> count = parse_whole(words_[2]);
+    const std::string name(words_[1]);
+    if (!count || *count < 0) fail("element " + name + " has count " + quoted(words_[2]));
+    if (has(header_.elements, name)) fail("a second element " + name);
+    header_.elements.push_back({name, *count, header_.lines, {}});
+  }
+
+  void property() {
+    if (header_.elements.empty()) fail("a property before any element");
+    PlyElement& element = header_.elements.back();
+    PlyProperty p;
+    p.list = words_.size() > 1 && words_[1] == "list";
+    p.line = header_.lines;
+    if (words_.size() != (p.list ? 5u : 3u)) fail("a property has a type and a name, here is " + quoted(words_));
+    p.name = std::string(words_.back());
+    p.type = type(p.name, words_[words_.size() - 2]);
+    if (p.list) p.count_type = type(p.name, words_[2]);
+    if (!is_whole(p.count_type)) fail("property " + p.name + " has count type " + quoted(words_[2]));
+    if (has(element.properties, p.name)) fail("a second property " + p.name + " of element " + element.name);
+    element.properties.push_back(p);
+  }
+
+  PlyType type(const std::string& property, std::string_view name) {
+    const std::optional<PlyType> found = to_type(name);
+    if (!found) fail("property " + property + " has unknown type " + quoted(name));
+    return *found;
+  }
+
+  PlyHeader finish() {
+    if (!has_format_) fail("no format in the header");
+    for (const PlyElement& e : header_.elements)
+      if (e.count > 0 && e.properties.empty()) mesh_.fail(e.line, "element " + e.name + " has no properties");
+    header_.data = rest_;
+    return std::move(header_);
+  }
+
+  [[noreturn]] void fail(const std::string& cause) const { mesh_.fail(header_.lines, cause); }
+
+  std::string_view rest_, line_end_ = "\n";
+  const MeshBuilder& mesh_;
+  std::vector<std::string_view> words_;
+  PlyHeader header_;
+  bool has_format_ = false;
 };
-
-std::string add_property(Header& header, std::istringstream& words) {
-  std::string type, count_type, name;
-  words >> type;
-  const bool list = type == "list";
-  if (list) words >> count_type >> type;
-  if (!(words >> name)) return "a property without type or name";
-  if (!kTypes.count(type)) return "property " + name + " has unknown type '" + type + "'";
-  if (list && (!kTypes.count(count_type) || kFloatTypes.count(count_type)))
-    return "property " + name + " has count type '" + count_type + "'";
-  if (header.element == "vertex" && !list) header.vertex[name] = type;
-  if (header.element == "face" && list && (name == "vertex_indices" || name == "vertex_index")) {
-    if (!kIndexTypes.count(type)) return "property " + name + " of type '" + type + "': int or uint expected";
-    header.has_indices = true;
-  }
-  return "";
-}
-
-std::string missing(const Header& header) {
-  for (const char* name : {"x", "y", "z"}) {
-    const auto found = header.vertex.find(name);
-    if (found == header.vertex.end()) return std::string("no vertex property ") + name;
-    if (!kFloatTypes.count(found->second))
-      return std::string("vertex property ") + name + " of type '" + found->second +
-             "': float or double expected";
-  }
-  if (!header.has_faces) return "no faces";
-  return header.has_indices ? "" : "no face property vertex_indices";
-}
 
 }  // namespace
 
-std::string ply_header_problem(std::istream& in) {
-  Header header;
-  std::string line, word;
-  for (int row = 1; std::getline(in, line); ++row) {
-    std::istringstream words(line);
-    words >> word;
-    if (row == 1 && word != "ply") return "not a PLY file";
-    if (word == "end_header") return missing(header);
-    if (word == "element") {
-      words >> header.element;
-      header.has_faces |= header.element == "face";
-    }
-    if (word == "property") {
-      const std::string problem = add_property(header, words);
-      if (!problem.empty()) return problem;
-    }
-  }
-  return "the header has no end";
+std::size_t bytes_of(PlyType type) {
+  constexpr std::size_t bytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return bytes[static_cast<std::size_t>(type)];
+}
+
+std::size_t PlyElement::least_bytes(bool ascii) const {
+  std::size_t bytes = 0;
+  for (const PlyProperty& p : properties) bytes += ascii ? 2 : bytes_of(p.list ? p.count_type : p.type);
+  return bytes;
+}
+
+PlyHeader read_ply_header(std::string_view bytes, const MeshBuilder& mesh) {
+  return HeaderReader(without_mark(bytes), mesh).read();
 }
 
 }  // namespace app

@@ -24,6 +24,7 @@ Json to_json(const onset::Options& o) {
           {"min_separation", o.min_separation},
           {"norm", o.norm == onset::Norm::maximum ? "maximum" : "euclidean"},
           {"max_checks", o.max_checks},
+          {"touching_may_pass_through", o.touching_may_pass_through},
           {"narrow_phase", o.narrow_phase == onset::NarrowPhaseMethod::inclusion ? "inclusion" : "auto"}};
 }
 
@@ -33,6 +34,7 @@ onset::Options to_options(const Json& json) {
   o.min_separation = json.at("min_separation").get<double>();
   o.norm = json.at("norm") == "maximum" ? onset::Norm::maximum : onset::Norm::euclidean;
   o.max_checks = json.at("max_checks").get<std::int64_t>();
+  o.touching_may_pass_through = json.value("touching_may_pass_through", false);
   if (json.at("narrow_phase") == "inclusion") o.narrow_phase = onset::NarrowPhaseMethod::inclusion;
   return o;
 }

@@ -70,16 +70,19 @@ Json seconds_json(const onset::Stats& s) {
   return {{"broad", s.seconds_broad}, {"narrow", s.seconds_narrow}, {"total", s.seconds_total}};
 }
 
+Json time_json(double time) { return std::isfinite(time) ? Json(time) : Json(); }
+
 // toi_hi is null where no contact is certain by any time.
 static void add_certainty(Json& json, onset::Certainty certainty, double toi_hi) {
   json["certainty"] = onset::to_string(certainty);
-  json["toi_hi"] = std::isfinite(toi_hi) ? Json(toi_hi) : Json();
+  json["toi_hi"] = time_json(toi_hi);
 }
 
 Json step_json(const onset::StepResult& r) {
   Json json = {{"outcome", onset::to_string(r.outcome)}, {"step", r.step},
                {"limiting", to_json(r.limiting)},        {"candidates", to_json(r.stats.candidates)},
-               {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance}};
+               {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance},
+               {"toi", time_json(r.toi)},                {"rounding", r.rounding}};
   if (r.limiting.a >= 0) add_certainty(json["limiting"], r.certainty, r.toi_hi);
   if (r.vertex >= 0) json["vertex"] = r.vertex;
   json["stats"] = to_json(r.stats);
@@ -109,7 +112,7 @@ Json active_set_json(const onset::ActiveSet& set) {
 }
 
 void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
-  csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate\n");
+  csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit\n");
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto& v = set.vertices[i];
     csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(set.kind[i]), set.a[i], set.b[i], set.toi[i],
@@ -119,17 +122,21 @@ void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
     const auto& n = set.normal[i];
     for (const double x : {w[0], w[1], w[2], w[3], n[0], n[1], n[2], set.gap[i], set.speed[i]})
       csv.write(format(",%.17g", x));
-    csv.write(format(",%d\n", int(set.degenerate[i])));
+    csv.write(format(",%d,%.17g\n", int(set.degenerate[i]), set.step_limit[i]));
   }
+}
+
+// A point is an edge whose two vertices are the same.
+std::string describe_edge(int edge, int v, int w) {
+  return v == w ? format("point %d (edge %d)", v, edge) : format("edge %d (vertices %d %d)", edge, v, w);
 }
 
 std::string describe(const onset::Pair& pair) {
   if (pair.a < 0) return "none";
-  const bool vf = pair.kind == onset::PairKind::vertex_face;
   const auto& v = pair.vertices;
-  return vf ? format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3])
-            : format("edge %d (vertices %d %d) and edge %d (vertices %d %d)", pair.a, v[0], v[1], pair.b,
-                     v[2], v[3]);
+  if (pair.kind == onset::PairKind::vertex_face)
+    return format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3]);
+  return describe_edge(pair.a, v[0], v[1]) + " and " + describe_edge(pair.b, v[2], v[3]);
 }
 
 std::string describe(const onset::PairCounts& c) {
@@ -141,7 +148,8 @@ std::string describe_step(const onset::StepResult& r) {
   std::string text = format("outcome     %s\nstep        %.17g\nlimited by  %s\n",
                             onset::to_string(r.outcome), r.step, describe(r.limiting).c_str());
   if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
-  return text;
+  text += std::isfinite(r.toi) ? format("touches     t = %.17g, on the exact motion\n", r.toi) : "touches     never\n";
+  return text + format("rounding    %.3g, what storing the end of the step may change\n", r.rounding);
 }
 
 std::string describe_sizes(std::ptrdiff_t vertices, std::ptrdiff_t edges, std::ptrdiff_t faces) {

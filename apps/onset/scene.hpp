@@ -1,20 +1,24 @@
-// Two frames of one mesh: the input of step, active-set and candidates.
+// One frame or two of one mesh: the input of the subcommands.
 #pragma once
 
 #include <onset/onset.hpp>
 #include <string>
+#include <vector>
 
 #include "mesh_file.hpp"
 
 namespace app {
 
 struct Scene {
-  onset::Mesh mesh;  // edges in the order of onset::edges(faces)
+  onset::Mesh mesh;  // edges: onset::edges(faces), then the wires that are not among them; points are set
   Points x_t0, x_t1;
+  std::vector<std::string> notes;  // how the files were taken, for whoever reads the result
+  std::string path;                // of the first
+  bool welded = false;             // vertices at one place count as one (--weld)
 };
 
-// Throws InputError: what read_mesh throws, an id out of range, a face with a repeated vertex, different
-// topology.
+// Throws InputError: what read_mesh throws, and elements (faces, wires, points) that differ, naming the first one.
+// Polygons are cut into triangles by their shape in the first file.
 Scene read_scene(const std::string& path_t0, const std::string& path_t1);
 
 }  // namespace app

@@ -10,6 +10,7 @@
 #include <functional>
 #include <iterator>
 #include <onset/candidates.hpp>
+#include <onset/intersections.hpp>
 #include <onset/line_search.hpp>
 #include <onset/pipeline.hpp>
 #include <stdexcept>
@@ -34,6 +35,7 @@ inline const TightInclusionCCD DEFAULT_NARROW_PHASE_CCD{};
 // A surface, and how it lies in a full (volume) mesh. Vertices are rows.
 class CollisionMesh {
  public:
+  // Throws as onset::Mesh, where `edges` lacks one of a face too, as ipc-toolkit does.
   // displacement_map: dim #V x dim #full or #V x #full, displacements of the full mesh to those of the
   // surface; empty: the same. Edges that are empty are those of the faces.
   CollisionMesh(const Eigen::MatrixXd& rest_positions, const Eigen::MatrixXi& edges = {},
@@ -67,6 +69,7 @@ class CollisionMesh {
       }
     };
     use(edges), use(faces);
+    if (edges.size() > 0) onset::Mesh(full_rest_positions.rows(), edges, faces);  // throws by the full mesh's ids
     for (std::size_t v = 0; v < surface.size(); ++v)
       if (surface[v] == 0) surface[v] = int(full.size()), full.push_back(int(v));
     const auto renumbered = [&](Eigen::MatrixXi ids) {
@@ -288,6 +291,20 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
   const LineSearch search(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0),
                           options_of(min_distance, ccd), 1 - ccd.conservative_rescaling);
   return search.largest_step().result.step;
+}
+
+// Whether an edge and a face without a common vertex have a common point, exactly; a touch is one. Also true for NaN.
+inline bool has_intersections(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices, const BroadPhase* = nullptr) {
+  const onset::Mesh& all = mesh.onset_mesh();
+  if (!mesh.can_collide) return onset::has_intersections(all, vertices);
+  const Intersections found = intersections(all, vertices);
+  const auto may = [&](const Intersection& p) {
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 2; j < 5; ++j)
+        if (mesh.can_collide(std::size_t(p.vertices[i]), std::size_t(p.vertices[j]))) return true;
+    return false;
+  };
+  return found.outcome != Outcome::free || std::any_of(found.begin(), found.end(), may);
 }
 
 inline bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,

@@ -12,7 +12,8 @@
 
 namespace onset {
 
-struct MeshData;  // base/mesh_data.hpp
+struct MeshData;      // base/mesh_data.hpp
+struct Intersection;  // onset/intersections.hpp
 
 // Immutable after construction apart from the set_ functions; const calls from any number of threads are
 // safe, a set_ function with any other call is not. Copies share their data until one of them is changed. A
@@ -29,8 +30,9 @@ struct MeshData;  // base/mesh_data.hpp
 class ONSET_API Mesh {
  public:
   // `vertices`: #V, the number of rows of every positions matrix. `edges`: #E x 2; `faces`: #F x 3. Throws
-  // std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, or a wrong
-  // number of columns.
+  // std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, a wrong number
+  // of columns, or a face that has an edge which `edges` lacks: its contacts would be lost. complete_edges
+  // adds them. An edge given twice is two edges: the pairs of both are listed.
   Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces);
   // As above with edges derived from the faces: onset::edges(faces), the order of igl::edges.
   Mesh(std::ptrdiff_t vertices, const Indices& faces);
@@ -86,6 +88,12 @@ class ONSET_API Mesh {
   void set_excluded_bodies(const std::vector<std::array<int, 2>>& pairs);
   void set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs);
 
+  // These very pairs, such as those that check() finds touching at the start: std::vector<Pair>(list.begin(),
+  // list.end()) makes one of any list of pairs. `vertices` are not looked at. set_points forgets pairs of points.
+  void set_excluded_pairs(const std::vector<Pair>& pairs);
+  // The same for an edge and a face, in intersections(), has_intersections() and check().
+  void set_excluded_intersections(const std::vector<Intersection>& pairs);
+
   // Vertices that are at one place, exactly, at both ends of a motion count as one in it, as the copies of a seam's
   // vertices do: pairs with one of them on each side are left out as if they shared a vertex. Distances at one time
   // (close_pairs) are those of a motion that stays there. Until set: off.
@@ -129,12 +137,22 @@ class ONSET_API Mesh {
 // The undirected edges of `faces`, each once, in the order of igl::edges: see src/edges.cpp.
 ONSET_API std::vector<std::array<int, 2>> edge_list(const Indices& faces);
 
-// The same as a matrix (#E x 2).
-inline Eigen::MatrixXi edges(const Indices& faces) {
-  const std::vector<std::array<int, 2>> list = edge_list(faces);
+// One row an edge.
+inline Eigen::MatrixXi edge_matrix(const std::vector<std::array<int, 2>>& list) {
   Eigen::MatrixXi E(list.size(), 2);
   for (std::size_t i = 0; i < list.size(); ++i) E.row(i) << list[i][0], list[i][1];
   return E;
+}
+
+// The same as a matrix (#E x 2).
+inline Eigen::MatrixXi edges(const Indices& faces) { return edge_matrix(edge_list(faces)); }
+
+// `edges`, followed by the edges of `faces` that are not among them, in the order of igl::edges.
+ONSET_API std::vector<std::array<int, 2>> complete_edge_list(const Indices& edges, const Indices& faces);
+
+// The same as a matrix (#E x 2): what a mesh of wires and faces is made from.
+inline Eigen::MatrixXi complete_edges(const Indices& edges, const Indices& faces) {
+  return edge_matrix(complete_edge_list(edges, faces));
 }
 
 }  // namespace onset

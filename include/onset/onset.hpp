@@ -2,8 +2,10 @@
 #pragma once
 
 #include <onset/candidates.hpp>
+#include <onset/check.hpp>
 #include <onset/close_pairs.hpp>
 #include <onset/constraints.hpp>
+#include <onset/intersections.hpp>
 #include <onset/line_search.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>

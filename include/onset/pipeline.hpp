@@ -8,7 +8,8 @@
 
 namespace onset {
 
-// All calls: x_t0, x_t1 are #V x 3 positions at the two ends of a linear motion, t in [0, 1]. Wrong row
+// All calls: x_t0, x_t1 are #V x 3 positions at the two ends of a linear motion, t in [0, 1]. x_t0 is assumed to be
+// free of intersections: has_intersections (onset/intersections.hpp) and check (onset/check.hpp) tell. Wrong row
 // counts and options out of range throw std::invalid_argument; everything else is an outcome. Safe to call
 // concurrently on one Mesh.
 

@@ -37,14 +37,27 @@ class Small(AppTest):
     def test_free_step(self):
         result = self.json("step", self.a, self.apart)
         self.assertEqual((result["outcome"], result["step"], result["limiting"]), ("free", 1, None))
-        self.assertEqual(self.csv("step", self.a, self.apart), "outcome,step,kind,a,b,v0,v1,v2,v3\nfree,1,,,,,,,\n")
+        self.assertEqual(self.csv("step", self.a, self.apart), "outcome,step,kind,a,b,v0,v1,v2,v3,toi,toi_hi,rounding\nfree,1,,,,,,,,inf,inf,%.17g\n" % result["rounding"])
 
     def test_step_csv(self):
         header, row = self.csv("step", self.a, self.b).splitlines()
-        self.assertEqual(header, "outcome,step,kind,a,b,v0,v1,v2,v3")
-        outcome, step, *pair = row.split(",")
+        self.assertEqual(header, "outcome,step,kind,a,b,v0,v1,v2,v3,toi,toi_hi,rounding")
+        outcome, step, *pair, toi, toi_hi, rounding = row.split(",")
         self.assertEqual((outcome, pair), ("contact", ["vf", "3", "0", "3", "0", "1", "2"]))
-        self.assertEqual(float(step), self.json("step", self.a, self.b)["step"])
+        result = self.json("step", self.a, self.b)
+        self.assertEqual([float(x) for x in [step, toi, toi_hi, rounding]],
+                         [result["step"], result["toi"], result["limiting"]["toi_hi"], result["rounding"]])
+
+    def test_time_of_impact_beside_the_step(self):
+        """The exact motion touches at 1/2; the step ends where what is stored is free, a rounding before at the latest."""
+        for certainty in ["conservative", "exact"]:
+            result = self.json("step", self.a, self.b, "--certainty", certainty, "--tolerance", "1e-9")
+            self.assertLessEqual(result["step"], result["toi"])
+            self.check_toi(result["toi"], 1e-9)
+            self.assertTrue(0 < result["rounding"] < 1e-12, result["rounding"])
+        self.assertIsNone(self.json("step", self.a, self.apart)["toi"])
+        self.assertIn("touches     never", self.succeed("step", self.a, self.apart))
+        self.assertIn("touches     t = 0.4", self.succeed("step", self.a, self.b))
 
     def test_active_set_json(self):
         result = self.json("active-set", self.a, self.b, "--tolerance", "1e-6")
@@ -61,7 +74,7 @@ class Small(AppTest):
 
     def test_active_set_csv(self):
         header, row = self.csv("active-set", self.a, self.b, "--tolerance", "1e-6").splitlines()
-        self.assertEqual(header, "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate")
+        self.assertEqual(header, "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit")
         fields = row.split(",")
         self.assertEqual(fields[:3] + fields[4:9], ["vf", "3", "0", "3", "0", "1", "2", "contact"])
         self.check_toi(float(fields[3]))
@@ -69,6 +82,7 @@ class Small(AppTest):
         self.assertEqual((weights[0], sum(weights)), (1, 0))
         self.assertEqual((normal, speed, fields[20]), ([0, 0, 1], -2, "0"))
         self.assertTrue(0 <= gap <= 1e-6)
+        self.assertEqual(fields[21], fields[3])
 
     def test_certainty(self):
         """The exact time is 1/2; without it the contact is known to be somewhere near."""
@@ -124,7 +138,7 @@ class Small(AppTest):
 
     def test_help_and_version(self):
         self.assertRegex(self.succeed("--version"), r"^onset \d+\.\d+\.\d+\n$")
-        for command in ["step", "active-set", "candidates", "queries", "demo"]:
+        for command in ["step", "active-set", "candidates", "check", "queries", "demo"]:
             self.assertIn(command, self.succeed("--help"))
             self.assertIn("--relative-tolerance", self.succeed(command, "--help"))
 

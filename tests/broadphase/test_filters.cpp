@@ -1,5 +1,6 @@
 // Bodies, static vertices, groups, exclusions: every broad phase gives what a filter written from the
 // documentation of Mesh leaves of all pairs, and the plan counts them.
+#include <onset/intersections.hpp>
 #include <onset/mesh.hpp>
 #include <stdexcept>
 
@@ -13,7 +14,7 @@ using scenes::Random;
 
 namespace {
 
-constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge};
+constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge, kEdgeFace};
 
 // What was asked of a mesh, as it was asked.
 struct Rules {
@@ -21,6 +22,8 @@ struct Rules {
   std::vector<bool> fixed, rigid, self;
   std::vector<std::uint32_t> group, mask;
   std::vector<std::array<int, 2>> bodies_apart, vertices_apart;
+  std::vector<Pair> pairs;
+  std::vector<Intersection> intersections;
 };
 
 bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
@@ -64,9 +67,26 @@ std::vector<int> vertices_of(const MeshData& mesh, Primitive kind, int id) {
   return {f[0], f[1], f[2]};
 }
 
+bool named(const Rules& r, PairKind kind, int a, int b) {
+  for (const Intersection& p : r.intersections)
+    if (kind == kEdgeFace && p.edge == a && p.face == b) return true;
+  for (const Pair& p : r.pairs)
+    if (p.kind == kind && ((p.a == a && p.b == b) || (kind == PairKind::edge_edge && p.a == b && p.b == a))) return true;
+  return false;
+}
+
 Reason left_out(const Rules& r, const MeshData& mesh, PairKind kind, int a, int b) {
-  return left_out(r, vertices_of(mesh, first_primitive(kind), a),
-                  vertices_of(mesh, second_primitive(kind), b));
+  const Reason reason =
+      left_out(r, vertices_of(mesh, first_primitive(kind), a), vertices_of(mesh, second_primitive(kind), b));
+  return reason == none && named(r, kind, a, b) ? by_name : reason;
+}
+
+template <class T>
+Eigen::MatrixXi matrix(const std::vector<T>& rows) {
+  Eigen::MatrixXi m(rows.size(), T().size());
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t c = 0; c < T().size(); ++c) m(Eigen::Index(r), Eigen::Index(c)) = rows[r][c];
+  return m;
 }
 
 // Clusters of a few vertices each, some with many faces, some wires, some points alone; edges may repeat.
@@ -88,15 +108,22 @@ Soup clusters(int count, Random& random) {
     for (int i = 0; size > 1 && i < scenes::integer(random, 0, 12); ++i)
       if (const int a = vertex(), b = vertex(); a != b) soup.mesh.edges.push_back({a, b});
   }
+  soup.mesh.edges = complete_edge_list(matrix(soup.mesh.edges), matrix(soup.mesh.faces));
   return soup;
 }
 
-template <class T>
-Eigen::MatrixXi matrix(const std::vector<T>& rows) {
-  Eigen::MatrixXi m(rows.size(), T().size());
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    for (std::size_t c = 0; c < T().size(); ++c) m(Eigen::Index(r), Eigen::Index(c)) = rows[r][c];
-  return m;
+// Up to a hundred of each kind; few of them are candidates in a large mesh.
+void name_pairs(Mesh& mesh, Rules& rules, Random& random) {
+  const int V = int(mesh.num_vertices()), E = int(mesh.num_edges()), F = int(mesh.num_faces());
+  const auto id = [&](int count) { return scenes::integer(random, 0, count - 1); };
+  if (E < 2 || F == 0 || scenes::integer(random, 0, 2) == 0) return;
+  for (int i = scenes::integer(random, 0, 100); i > 0; --i) {
+    rules.pairs.push_back({PairKind::vertex_face, id(V), id(F), {}});
+    rules.intersections.push_back({id(E), id(F), IntersectionKind::touching, {}});
+    if (const int e = id(E), g = id(E); e != g) rules.pairs.push_back({PairKind::edge_edge, e, g, {}});
+  }
+  mesh.set_excluded_pairs(rules.pairs);
+  mesh.set_excluded_intersections(rules.intersections);
 }
 
 // Each rule with probability one half. Static vertices of `soup` stop moving.
@@ -143,6 +170,7 @@ Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
   };
   if (some(0.5)) mesh.set_excluded_bodies(rules.bodies_apart = pairs(4, int(bodies)));
   if (some(0.5)) mesh.set_excluded_vertices(rules.vertices_apart = pairs(30, int(V)));
+  name_pairs(mesh, rules, random);
   return mesh;
 }
 
@@ -164,8 +192,10 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
       unfiltered.test = input.test = test;
       unfiltered.inflation = input.inflation = round % 3 == 0 ? 0.05 : 0;
       unfiltered.horizon = input.horizon = round % 4 == 0 ? 0.3 : 1;
-      const auto all = make_broad_phase(BroadPhaseMethod::brute, unfiltered);
       for (const PairKind kind : kKinds) {
+        if (kind == kEdgeFace && test != BoxTest::swept) continue;
+        unfiltered.edges_against_faces = input.edges_against_faces = kind == kEdgeFace;
+        const auto all = make_broad_phase(BroadPhaseMethod::brute, unfiltered);
         IdPairs expected;
         for (const auto& [a, b] : candidates(*all, kind)) {
           const Reason reason = left_out(rules, soup.mesh, kind, a, b);
@@ -208,6 +238,7 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
           if (reason == none)
             busy[std::size_t(first)][std::size_t(a)] = busy[std::size_t(second)][std::size_t(b)] = true;
         }
+      if (kind == kEdgeFace) continue;  // in no plan, but what may meet that way has a box
       const KindPlan& plan = kind == PairKind::vertex_face ? mesh.plan().vertex_face : mesh.plan().edge_edge;
       CAPTURE(round, int(kind));
       CHECK(plan.pairs == pairs);
@@ -233,25 +264,25 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
 TEST_CASE("what can meet nothing gets no box", "[unit]") {
   Random random(4);
   const Soup soup = scattered("triangles", 40, 0.3, 0.1, random);
-  const auto mesh = [&](bool edges, bool faces) {
-    return Mesh(soup.mesh.num_vertices, edges ? Indices(matrix(soup.mesh.edges)) : Indices(),
+  const auto mesh = [&](bool faces) {
+    return Mesh(soup.mesh.num_vertices, Indices(matrix(soup.mesh.edges)),
                 faces ? Indices(matrix(soup.mesh.faces)) : Indices());
   };
-  const PairPlan wires = mesh(true, false).plan(), faces = mesh(false, true).plan();
+  const PairPlan wires = mesh(false).plan(), all = mesh(true).plan();
   CHECK(wires.vertices.dropped == 120);
   CHECK(wires.edges.moving == 120);
-  CHECK(faces.vertices.moving == 120);
-  CHECK(faces.faces.moving == 40);
-  Mesh rigid = mesh(true, true);
+  CHECK(all.vertices.moving == 120);
+  CHECK(all.faces.moving == 40);
+  Mesh rigid = mesh(true);
   rigid.set_rigid({true});
   CHECK(rigid.plan().vertices.dropped == 120);
   CHECK(rigid.plan().edges.dropped == 120);
   CHECK(rigid.plan().faces.dropped == 40);
   CHECK(rigid.plan().edge_edge.may_meet() == 0);
-  Mesh still = mesh(true, true);
+  Mesh still = mesh(true);
   still.set_static(std::vector<bool>(120, true));
   CHECK(still.plan().faces.dropped == 40);
-  Mesh ghost = mesh(true, true);  // the first triangle is in no group
+  Mesh ghost = mesh(true);  // the first triangle is in no group
   std::vector<std::uint32_t> groups(120, 1), masks(120, 1);
   groups[0] = groups[1] = groups[2] = 0;
   ghost.set_groups(groups, masks);

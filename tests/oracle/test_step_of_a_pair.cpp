@@ -19,7 +19,7 @@ Mesh mesh_of(PairKind kind) {
     edges.resize(2, 2);
     edges << 0, 1, 2, 3;
   }
-  return Mesh(4, edges, faces);
+  return Mesh(4, complete_edges(edges, faces), faces);
 }
 
 Eigen::MatrixXd positions(const std::array<Point, 4>& points) {

@@ -48,7 +48,7 @@ TEST_CASE("one face, or one edge, has nothing to meet", "[unit]") {
   expect_free(Mesh(3, E, Eigen::MatrixXi(0, 3)), a, b);
 }
 
-TEST_CASE("edges without faces meet each other, faces without edges meet vertices", "[unit]") {
+TEST_CASE("edges without faces meet each other, a face meets a vertex of no other", "[unit]") {
   Eigen::MatrixXd a(4, 3), b(4, 3);
   a << -1, 0, 1, 1, 0, 1, 0, -1, 0, 0, 1, 0;
   b = a;
@@ -66,7 +66,7 @@ TEST_CASE("edges without faces meet each other, faces without edges meet vertice
   b(0, 2) = -1;
   Eigen::MatrixXi F(1, 3);
   F << 1, 2, 3;
-  const StepResult face = compute_collision_free_stepsize(Mesh(4, Eigen::MatrixXi(0, 2), F), a, b);
+  const StepResult face = compute_collision_free_stepsize(Mesh(4, F), a, b);
   CHECK(face.outcome == Outcome::contact);
   CHECK(face.limiting.kind == PairKind::vertex_face);
   CHECK(face.step > 0.499);

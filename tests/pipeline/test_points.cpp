@@ -246,7 +246,7 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
         if (set.kind[i] == PairKind::vertex_face || !is_point(m.mesh, side == 0 ? set.a[i] : set.b[i]))
           continue;
         CHECK((std::abs(set.weight[i][side]) == 1 && set.weight[i][side + 1] == 0));
-        CHECK(set.degenerate[i] == 1);
+        CHECK((set.degenerate[i] == 0 || set.gap[i] < 1e-10));
         CHECK(std::hypot(set.normal[i][0], set.normal[i][1], set.normal[i][2]) == Approx(1));
       }
     const StepResult step = compute_collision_free_stepsize(m.mesh, m.scene.x_t0, m.scene.x_t1, o);

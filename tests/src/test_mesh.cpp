@@ -65,24 +65,105 @@ TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]
   CHECK(mesh.plan().vertex_face.excluded == 0);
 }
 
+TEST_CASE("faces need their edges: what is missing is named, and complete_edges adds it", "[unit]") {
+  Eigen::MatrixXi F(3, 3), E(3, 2);
+  F << 0, 1, 2, 2, 1, 3, 4, 5, 6;
+  E << 7, 3, 1, 0, 2, 1;
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(8, 3);
+  CHECK_THROWS_WITH(Mesh(8, E, F), Catch::Contains("face row 0") && Catch::Contains("vertices 0 and 2") &&
+                                       Catch::Contains("onset::complete_edges"));
+  CHECK_THROWS_WITH(Mesh(x, E, F), Catch::Contains("face row 0") && Catch::Contains("vertices 0 and 2"));
+  CHECK_THROWS_WITH(Mesh(8, Eigen::MatrixXi(0, 2), F), Catch::Contains("face row 0"));
+  const Eigen::MatrixXi all = complete_edges(E, F);
+  REQUIRE(all.rows() == 9);
+  CHECK(all.topRows(3) == E);
+  Eigen::MatrixXi rest(6, 2);  // by the larger vertex, then by the smaller
+  rest << 0, 2, 1, 3, 2, 3, 4, 5, 4, 6, 5, 6;
+  CHECK(all.bottomRows(6) == rest);
+  CHECK_THROWS_WITH(Mesh(8, Eigen::MatrixXi(all.topRows(8)), F),
+                    Catch::Contains("face row 2") && Catch::Contains("vertices 5 and 6"));
+}
+
+TEST_CASE("complete edges of random faces are those given, then the others in the order of edges", "[property]") {
+  scenes::Random random(31);
+  for (int round = 0; round < 50; ++round) {
+    const Scene scene = scenes::joined(scenes::cube(), scenes::sphere(3 + round % 3, 5));
+    const Eigen::MatrixXi derived = edges(scene.faces);
+    Eigen::MatrixXi some(scenes::integer(random, 0, 20), 2);
+    for (Eigen::Index e = 0; e < some.rows(); ++e) {
+      const Eigen::RowVector2i one = derived.row(scenes::integer(random, 0, int(derived.rows()) - 1));
+      some.row(e) = scenes::coin(random) ? one : Eigen::RowVector2i(one.reverse());
+    }
+    const Eigen::MatrixXi all = complete_edges(some, scene.faces);
+    CHECK(all.topRows(some.rows()) == some);
+    Eigen::Index next = some.rows();
+    for (Eigen::Index e = 0; e < derived.rows(); ++e) {
+      bool given = false;
+      for (Eigen::Index g = 0; g < some.rows(); ++g)
+        given = given || some.row(g) == derived.row(e) || some.row(g) == Eigen::RowVector2i(derived.row(e).reverse());
+      if (!given) CHECK(all.row(next++) == derived.row(e));
+    }
+    CHECK(next == all.rows());
+    CHECK(Mesh(scene.x_t0, all, scene.faces).num_edges() == all.rows());
+  }
+  CHECK_THROWS_WITH(complete_edges(Eigen::RowVector2i(0, -1), Eigen::MatrixXi(0, 3)), Catch::Contains("edge row 0"));
+  CHECK_THROWS_AS(complete_edges(Eigen::RowVector3i(0, 1, 2), Eigen::MatrixXi(0, 3)), std::invalid_argument);
+}
+
+TEST_CASE("pairs to leave out are named by row where they are none", "[unit]") {
+  const Scene scene = scenes::joined(scenes::cube(), scenes::translated(scenes::cube(), {3, 0, 0}));
+  Mesh mesh(scene.x_t0, scene.faces);
+  const Pair good{PairKind::vertex_face, 15, 0, {}};
+  const auto with = [&](const Pair& bad) { mesh.set_excluded_pairs({good, bad}); };
+  CHECK_THROWS_WITH(with({PairKind::vertex_face, 16, 0, {}}),
+                    Catch::Contains("excluded pairs row 1: vertex 16 is out of range, there are 16 vertices"));
+  CHECK_THROWS_WITH(with({PairKind::vertex_face, 0, 24, {}}), Catch::Contains("row 1: face 24"));
+  CHECK_THROWS_WITH(with({PairKind::edge_edge, -1, 3, {}}), Catch::Contains("row 1: edge -1"));
+  CHECK_THROWS_WITH(with({PairKind::edge_edge, 3, 3, {}}), Catch::Contains("row 1: edge 3 is repeated"));
+  CHECK_THROWS_WITH(with({PairKind(9), 3, 3, {}}), Catch::Contains("row 1") && Catch::Contains("kind 9"));
+  CHECK_THROWS_WITH(mesh.set_excluded_intersections({{0, 24, IntersectionKind::crossing, {}}}),
+                    Catch::Contains("excluded intersections row 0: face 24"));
+  CHECK(mesh.plan().vertex_face.excluded == 0);
+  mesh.set_excluded_pairs({good, {PairKind::edge_edge, 30, 2, {}}, good});
+  CHECK((mesh.plan().vertex_face.excluded == 1 && mesh.plan().edge_edge.excluded == 1));
+  mesh.set_excluded_vertices({{15, mesh.face(0)[0]}});  // the same pair, counted once
+  CHECK(mesh.plan().vertex_face.excluded > 1);
+  const std::int64_t both = mesh.plan().vertex_face.excluded;
+  mesh.set_excluded_pairs({});
+  CHECK(mesh.plan().vertex_face.excluded == both);
+}
+
+TEST_CASE("new points forget the pairs of old ones", "[unit]") {
+  Mesh mesh(9, Eigen::MatrixXi((Eigen::MatrixXi(1, 3) << 0, 1, 2).finished()));
+  mesh.set_points({3, 4, 5});
+  mesh.set_excluded_pairs({{PairKind::edge_edge, 3, 4, {}}, {PairKind::vertex_face, 7, 0, {}}, {PairKind::edge_edge, 0, 3, {}}});
+  mesh.set_excluded_intersections({{4, 0, IntersectionKind::touching, {}}});
+  CHECK((mesh.plan().edge_edge.excluded == 2 && mesh.plan().vertex_face.excluded == 1));
+  mesh.set_points({6, 7, 8});
+  CHECK((mesh.plan().edge_edge.excluded == 0 && mesh.plan().vertex_face.excluded == 1));
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(9, 3);
+  x.row(1) << 1, 0, 0, x.row(2) << 0, 1, 0;
+  CHECK(intersections(mesh, x).size() == 3);
+}
+
 TEST_CASE("points are vertices of no edge or face, each once, after the edges", "[unit]") {
   Eigen::MatrixXi edges(1, 2), faces(1, 3);
   edges << 3, 4;
   faces << 0, 1, 2;
-  Mesh mesh(8, edges, faces);
+  Mesh mesh(8, complete_edges(edges, faces), faces);
   mesh.set_points({7, 5});
-  CHECK((mesh.num_edges() == 3 && mesh.num_points() == 2));
-  CHECK((mesh.edge(1) == std::array<int, 2>{7, 7} && mesh.edge(2) == std::array<int, 2>{5, 5}));
+  CHECK((mesh.num_edges() == 6 && mesh.num_points() == 2));
+  CHECK((mesh.edge(4) == std::array<int, 2>{7, 7} && mesh.edge(5) == std::array<int, 2>{5, 5}));
   CHECK_THROWS_WITH(mesh.set_points({5, 8}), Catch::Contains("point row 1: vertex 8 is out of range"));
   CHECK_THROWS_WITH(mesh.set_points({-1}), Catch::Contains("point row 0: vertex -1"));
   CHECK_THROWS_WITH(mesh.set_points({5, 6, 5}), Catch::Contains("point row 2: vertex 5 is repeated"));
   CHECK_THROWS_WITH(mesh.set_points({4}), Catch::Contains("row 0: vertex 4 belongs to an edge"));
   CHECK_THROWS_WITH(mesh.set_points({5, 2}), Catch::Contains("row 1: vertex 2 belongs to an edge or a face"));
-  CHECK((mesh.num_edges() == 3 && mesh.edge(1)[0] == 7));
+  CHECK((mesh.num_edges() == 6 && mesh.edge(4)[0] == 7));
   mesh.set_points({6});
-  CHECK((mesh.num_edges() == 2 && mesh.edge(1)[0] == 6 && mesh.plan().edge_edge.pairs == 1));
+  CHECK((mesh.num_edges() == 5 && mesh.edge(4)[0] == 6 && mesh.plan().edge_edge.pairs == 10));
   mesh.set_points({});
-  CHECK((mesh.num_edges() == 1 && mesh.num_points() == 0));
+  CHECK((mesh.num_edges() == 4 && mesh.num_points() == 0));
   edges << 3, 3;
   CHECK_THROWS_WITH(Mesh(8, edges, faces), Catch::Contains("edge row 0: vertex 3 is repeated"));
 }

@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "error.hpp"
 #include "progress.hpp"
+#include "scene_command.hpp"
 #include "sweep.hpp"
 #include "trade_report.hpp"
 
@@ -49,8 +50,8 @@ void run_trade(const Inputs& inputs) {
 }
 
 void add_inputs(CLI::App& command, Inputs& inputs) {
-  command.add_option("A", inputs.a, "Mesh at the start of the step: .ply, .obj or .off, triangles");
-  command.add_option("B", inputs.b, "The same mesh at its end: the same faces in the same order");
+  command.add_option("A", inputs.a, kMeshHelp);
+  command.add_option("B", inputs.b, kEndHelp);
   command
       .add_option(
           "--queries", inputs.queries,

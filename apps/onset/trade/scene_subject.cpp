@@ -53,7 +53,11 @@ class SceneSubject : public Subject {
     return {extent_, m.num_vertices() + m.num_edges() + m.num_faces(),
             int(std::max(1u, std::thread::hardware_concurrency()))};
   }
-  std::string describe() const override { return name_ + ": " + describe_sizes(scene_.mesh).substr(12); }
+  std::string describe() const override {
+    std::string text = name_ + ": " + describe_sizes(scene_.mesh).substr(12);
+    for (const std::string& note : scene_.notes) text += "note        " + note + "\n";
+    return text;
+  }
   std::string reference() const override {
     if (exact_times_ > 0)
       return format("the exact times of %lld pairs", static_cast<long long>(exact_times_));

@@ -1,0 +1,121 @@
+#include "onset/check.hpp"
+
+#include <algorithm>
+
+#include "base/dispatch.hpp"
+#include "narrowphase/edge_face.hpp"
+#include "src/checked_options.hpp"
+#include "src/clock.hpp"
+#include "src/places.hpp"
+#include "src/rest_pairs.hpp"
+#include "src/start_findings.hpp"
+
+namespace onset {
+namespace {
+
+// Of each vertex: whether it has an edge, a face or is a point, and whether one of these is not static as a whole.
+struct Use {
+  std::vector<bool> used, meets;
+
+  explicit Use(const MeshData& mesh) : used(std::size_t(mesh.num_vertices)), meets(used) {
+    for (const Primitive kind : {Primitive::edge, Primitive::face})
+      for (std::size_t id = 0; id < primitive_count(mesh, kind); ++id) {
+        const bool fixed = is_fixed(mesh, kind, int(id));
+        for (const int v : primitive_vertices(mesh, kind, int(id))) {
+          used[std::size_t(v)] = true;
+          if (!fixed) meets[std::size_t(v)] = true;
+        }
+      }
+  }
+};
+
+bool joined(const MeshData& mesh, int v, int w) {
+  return std::binary_search(mesh.excluded_vertices.begin(), mesh.excluded_vertices.end(), std::array<int, 2>{v, w});
+}
+
+// Whether nothing but their being told apart lets what is at v and w meet.
+bool never_meet(const MeshData& mesh, const Use& use, int v, int w) {
+  if (!use.meets[std::size_t(v)] && !use.meets[std::size_t(w)]) return true;
+  const PrimitiveFilter& filter = *mesh.filter;
+  if (!filter.keeps_apart()) return false;
+  const auto& keys = filter.keys[std::size_t(Primitive::vertex)];
+  const int body = keys[std::size_t(v)].body;
+  return body != 0 && body == keys[std::size_t(w)].body;
+}
+
+void list_copies(const MeshData& mesh, const Use& use, const Positions& x, StartReport& report) {
+  if (mesh.weld) return;
+  for (std::vector<int> here : shared_places(x)) {
+    here.erase(std::remove_if(here.begin(), here.end(), [&](int v) { return !use.used[std::size_t(v)]; }), here.end());
+    for (std::size_t j = 1; j < here.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i)
+        if (!joined(mesh, here[i], here[j]) && !never_meet(mesh, use, here[i], here[j])) {
+          report.copied_vertices.push_back({here[i], here[j]});
+          break;
+        }
+  }
+  std::sort(report.copied_vertices.begin(), report.copied_vertices.end());
+}
+
+void list_faces(const MeshData& mesh, const Motion& motion, StartReport& report) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    if (exactly_collinear(motion.t0(a), motion.t0(b), motion.t0(c))) report.faces_without_area.push_back(int(f));
+  }
+}
+
+std::size_t most(const Options& options, std::size_t bytes) { return std::size_t(options.memory_limit) / bytes; }
+
+// Lists of pairs, one after the other: of more than memory_limit holds, none.
+void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& rest, StartReport& report) {
+  rest.find(mesh, Rest::Pairs::edge_face, options, budget);
+  bool too_many = false;
+  if (rest.broad) {
+    auto all = find_intersections(mesh, rest, most(options, sizeof(Intersection)), budget);
+    report.intersections = std::move(all.found), too_many = all.too_many;
+  }
+  rest.broad.reset();
+  rest.find(mesh, Rest::Pairs::within_separation, options, budget);
+  if (rest.broad) {
+    auto all = find_near(mesh, rest, options, most(options, sizeof(NearPair)), budget);
+    too_many = too_many || all.too_many;
+    for (const NearPair& p : all.found)
+      if (p.touches)
+        report.touching.push_back(p.pair);
+      else
+        report.within_separation.push_back(p.pair);
+  }
+  report.outcome = rest.outcome(budget);
+  if (too_many) {
+    report.intersections = {}, report.touching = {}, report.within_separation = {};
+    report.outcome = Outcome::out_of_memory;
+  }
+}
+
+}  // namespace
+
+StartReport check(const Mesh& mesh, const Positions& x, const Options& options) {
+  check(options);
+  resolve_kernel(options.kernel);
+  StartReport report;
+  in_arena(options.threads, [&] {
+    const Clock clock;
+    Budget budget(options);
+    Rest rest(mesh, x);
+    report.vertex = rest.motion.bad_vertex;
+    const Use use(mesh.data());
+    for (std::size_t v = 0; v < use.used.size(); ++v)
+      if (!use.used[v]) report.unused_vertices.push_back(int(v));
+    report.outcome = rest.motion.status;
+    if (rest.motion.status == Outcome::free) {
+      list_copies(mesh.data(), use, x, report);
+      list_faces(mesh.data(), rest.motion, report);
+      list_pairs(mesh, options, budget, rest, report);
+    }
+    report.findings = start_findings(mesh, report);
+    report.seconds = clock.seconds();
+  });
+  return report;
+}
+
+}  // namespace onset

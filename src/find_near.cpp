@@ -1,0 +1,75 @@
+#include <array>
+
+#include "narrowphase/exact.hpp"
+#include "narrowphase/within_cube.hpp"
+#include "src/close_set.hpp"
+#include "src/rest_pairs.hpp"
+
+namespace onset {
+namespace {
+
+// One batch of pairs as a source.
+class Batch final : public PairSource {
+ public:
+  Batch(PairKind kind, const IdPair* pairs, std::size_t count) : kind_(kind), pairs_(pairs), count_(count) {}
+  std::size_t blocks(PairKind kind) const override { return kind == kind_ && count_ > 0 ? 1 : 0; }
+  void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
+    if (first < last && blocks(kind) > 0) sink(pairs_, count_);
+  }
+
+ private:
+  PairKind kind_;
+  const IdPair* pairs_;
+  std::size_t count_;
+};
+
+class Near {
+ public:
+  Near(const Mesh& mesh, const Motion& motion, const Options& options)
+      : mesh_(mesh), motion_(motion), options_(options), x_(4 * std::size_t(motion.num_vertices)) {
+    for (int v = 0; v < motion.num_vertices; ++v)
+      for (int a = 0; a < 3; ++a) x_[std::size_t(4 * v + a)] = motion.t0(v)[a];
+  }
+
+  // find_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as much.
+  void look(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
+    for (const ClosePair& p : find_close(Batch(kind, pairs, count), {mesh_, x_.data(), 0, 0, options_})) {
+      const int *v = p.vertices.data(), side = kind == PairKind::vertex_face ? 1 : 2;
+      if (mesh_.data().weld && share_place(motion_, v, v + side, v + side, v + 4)) continue;
+      const double* x[4];
+      for (std::size_t i = 0; i < 4; ++i) x[i] = motion_.t0(v[i]);
+      const bool touches = exactly_touches({kind, {x[0], x[1], x[2], x[3]}, {x[0], x[1], x[2], x[3]}});
+      if (touches || (p.separation > 0 && within(p, x))) found.push_back({p, touches});
+    }
+  }
+
+ private:
+  bool within(const ClosePair& p, const double* const (&x)[4]) const {
+    if (options_.norm != Norm::maximum) return true;
+    const int *v = p.vertices.data(), side = p.kind == PairKind::vertex_face ? 1 : 2;
+    const double thickness = thickest(mesh_.data(), v, v + side) + thickest(mesh_.data(), v + side, v + 4);
+    return within_cube(p.kind, x, (options_.min_separation + thickness) * (1 + 0x1p-50));
+  }
+
+  const Mesh& mesh_;
+  const Motion& motion_;
+  const Options& options_;
+  std::vector<double> x_;
+};
+
+}  // namespace
+
+Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most, Budget& budget) {
+  const Near near(mesh, rest.motion, options);
+  auto all = gather<NearPair>(
+      *rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+      [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) {
+        near.look(kind, pairs, count, found);
+      });
+  const auto order = [](const NearPair& p) { return std::array<int, 3>{int(p.pair.kind), p.pair.a, p.pair.b}; };
+  parallel_sort(all.found.begin(), all.found.end(),
+                [&](const NearPair& p, const NearPair& q) { return order(p) < order(q); });
+  return all;
+}
+
+}  // namespace onset

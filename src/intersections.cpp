@@ -1,0 +1,97 @@
+#include "onset/intersections.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/dispatch.hpp"
+#include "narrowphase/edge_face.hpp"
+#include "src/checked_options.hpp"
+#include "src/clock.hpp"
+#include "src/rest_pairs.hpp"
+
+namespace onset {
+namespace {
+
+IntersectionKind kind_of(EdgeFace found) {
+  switch (found) {
+    case EdgeFace::crossing:
+      return IntersectionKind::crossing;
+    case EdgeFace::overlapping:
+      return IntersectionKind::overlapping;
+    default:
+      return IntersectionKind::touching;
+  }
+}
+
+void look(const MeshData& mesh, const Motion& motion, IdPair ids, std::vector<Intersection>& found) {
+  const auto& e = mesh.edges[std::size_t(ids.a)];
+  const auto& f = mesh.faces[std::size_t(ids.b)];
+  const EdgeFace answer = edge_face({{motion.t0(e[0]), motion.t0(e[1])}, {motion.t0(f[0]), motion.t0(f[1]), motion.t0(f[2])}});
+  if (answer == EdgeFace::apart) return;
+  if (mesh.weld && share_place(motion, e.data(), e.data() + 2, f.data(), f.data() + 3)) return;
+  found.push_back({ids.a, ids.b, kind_of(answer), {e[0], e[1], f[0], f[1], f[2]}});
+}
+
+// 0: only whether there is any.
+Intersections find(const Mesh& mesh, const Positions& x, const Options& options, std::size_t most) {
+  check(options);
+  resolve_kernel(options.kernel);
+  Intersections r;
+  in_arena(options.threads, [&] {
+    const Clock clock;
+    Budget budget(options);
+    Rest rest(mesh, x);
+    rest.find(mesh, Rest::Pairs::edge_face, options, budget);
+    Gathered<Intersection> gathered;
+    if (rest.broad) gathered = find_intersections(mesh, rest, most, budget);
+    r.outcome = gathered.too_many ? Outcome::out_of_memory : rest.outcome(budget);
+    r.vertex = rest.motion.bad_vertex;
+    r.pairs = std::move(gathered.found);
+    r.seconds = clock.seconds();
+  });
+  return r;
+}
+
+}  // namespace
+
+Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, std::size_t most, Budget& budget) {
+  const MeshData& data = mesh.data();
+  auto all = gather<Intersection>(
+      *rest.broad, {kEdgeFace}, most, budget,
+      [&](PairKind, const IdPair* pairs, std::size_t count, std::vector<Intersection>& found) {
+        for (std::size_t i = 0; i < count; ++i) look(data, rest.motion, pairs[i], found);
+      });
+  parallel_sort(all.found.begin(), all.found.end(), [](const Intersection& p, const Intersection& q) {
+    return p.edge != q.edge ? p.edge < q.edge : p.face < q.face;
+  });
+  return all;
+}
+
+const char* to_string(IntersectionKind kind) {
+  switch (kind) {
+    case IntersectionKind::crossing:
+      return "crossing";
+    case IntersectionKind::touching:
+      return "touching";
+    case IntersectionKind::overlapping:
+      return "overlapping";
+  }
+  return "unknown";
+}
+
+std::size_t Intersections::count(IntersectionKind kind) const {
+  return std::size_t(
+      std::count_if(pairs.begin(), pairs.end(), [&](const Intersection& p) { return p.kind == kind; }));
+}
+
+Intersections intersections(const Mesh& mesh, const Positions& x, const Options& options) {
+  static_assert(sizeof(Intersection) == 32, "as documented");
+  return find(mesh, x, options, std::size_t(options.memory_limit) / sizeof(Intersection));
+}
+
+// The first one found is more than were to be kept.
+bool has_intersections(const Mesh& mesh, const Positions& x, const Options& options) {
+  return find(mesh, x, options, 0).outcome != Outcome::free;
+}
+
+}  // namespace onset

@@ -1,0 +1,33 @@
+#include "src/rest.hpp"
+
+#include <utility>
+
+#include "src/scene.hpp"
+
+namespace onset {
+
+// Leaves the rows of static vertices to the next call on the mesh.
+Rest::~Rest() {
+  if (motion.rows_last) motion.fixed->give_back(motion.axes, std::move(motion.x));
+}
+
+void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& budget) {
+  if (motion.status != Outcome::free || budget.spent()) return;
+  BroadPhaseInput input = broad_phase_input(mesh.data(), motion, options, 0, 1, BoxTest::swept);
+  if (pairs == Pairs::edge_face) {
+    input.edges_against_faces = true;
+    input.inflation = input.fixed_inflation = 0;
+  }
+  broad = make_broad_phase(options.broad_phase, input);
+}
+
+bool share_place(const Motion& motion, const int* first, const int* first_end, const int* second, const int* second_end) {
+  for (; first != first_end; ++first)
+    for (const int* other = second; other != second_end; ++other) {
+      const double *x = motion.t0(*first), *y = motion.t0(*other);
+      if (x[0] == y[0] && x[1] == y[1] && x[2] == y[2]) return true;
+    }
+  return false;
+}
+
+}  // namespace onset
