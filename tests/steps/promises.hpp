@@ -32,8 +32,8 @@ std::string disagreement(const StepResult& r, const ActiveSet& set, bool free);
 // A pair that keeps less of its gap than it was to.
 std::string share_lost(const Asked& asked, const CallStep& step);
 
-// Everything above, of all calls; d_hat > 0: of the close pairs. What the adapter cannot take it is not
-// asked.
-std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat);
+// Everything above, of all calls; d_hat > 0: of the close pairs; keep: the share. What the adapter cannot
+// take it is not asked.
+std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat, double keep = kKeep);
 
 }  // namespace onset::tests

@@ -118,8 +118,8 @@ struct Safe {
 };
 
 std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Calls& calls, Call call,
-                           double d_hat, std::vector<Safe>& safe) {
-  const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat);
+                           double d_hat, double keep, std::vector<Safe>& safe) {
+  const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat, keep);
   const StepResult& r = step.result;
   const Eigen::MatrixXd end = end_of(call, asked.x_t0, asked.x_t1);
   const Asked told{calls.mesh(call), asked.x_t0, end, asked.options, asked.thickness};
@@ -138,14 +138,14 @@ std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Ca
 
 }  // namespace
 
-std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat) {
+std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat, double keep) {
   const SceneTruth truth(asked);
   std::vector<Safe> safe;
   for (Call call : kCalls) {
     const bool told =
         call != Call::adapter || (asked.options.norm == Norm::euclidean && asked.thickness.empty());
     if (!told) continue;
-    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, safe); !broken.empty())
+    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, keep, safe); !broken.empty())
       return broken;
   }
   const StepResult r = compute_collision_free_stepsize(asked.mesh, asked.x_t0, asked.x_t1, asked.options);
