@@ -14,34 +14,34 @@ Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::Matr
 }
 
 CallStep Calls::search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
-                       const Options& options) const {
-  const LineSearchStep r =
-      LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), options, kKeep).largest_step();
+                       const Options& options, double keep) const {
+  const LineSearchStep r = LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), options, keep).largest_step();
   CallStep step{r.result, r.keep, r.result.stats.tolerance};
   step.result.rounding = r.rounding;
   return step;
 }
 
 CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
-                    const Options& options, double d_hat) const {
+                    const Options& options, double d_hat, double keep) const {
   switch (call) {
     case Call::whole:
       return {compute_collision_free_stepsize(mesh_, x_t0, x_t1, options)};
     case Call::line_search:
-      return search(mesh_, x_t0, x_t1, options);
+      return search(mesh_, x_t0, x_t1, options, keep);
     case Call::listed: {
       const Candidates list = compute_candidates(mesh_, x_t0, x_t1, options);
-      const StepResult r = compute_collision_free_stepsize(mesh_, list, x_t0, x_t1, options, kKeep);
-      return {r, kKeep, r.stats.tolerance};
+      const StepResult r = compute_collision_free_stepsize(mesh_, list, x_t0, x_t1, options, keep);
+      return {r, keep, r.stats.tolerance};
     }
     case Call::close: {
       const ClosePairs list = close_pairs(mesh_, x_t0, d_hat, options);
-      return {compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options), kKeep, kKeep * d_hat};
+      return {compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options, keep), keep, keep * d_hat};
     }
     case Call::adapter: {
-      CallStep step = search(mesh(call), x_t0, x_t1, options);  // for what the adapter does not say
+      CallStep step = search(mesh(call), x_t0, x_t1, options, keep);  // for what the adapter does not say
       ipc::TightInclusionCCD ccd;
       ccd.tolerance = options.tolerance.value_or(ccd.tolerance), ccd.max_iterations = options.max_checks;
+      ccd.conservative_rescaling = 1 - keep;
       step.keep = 1 - ccd.conservative_rescaling, step.reach = ccd.tolerance, step.says_outcome = false;
       step.result.step =
           ipc::compute_collision_free_stepsize(adapter_, x_t0, x_t1, options.min_separation, nullptr, ccd);

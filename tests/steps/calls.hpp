@@ -29,14 +29,14 @@ class Calls {
   const Mesh& mesh() const { return mesh_; }
   // That of the call: the adapter tests points against edges and each other as well.
   const Mesh& mesh(Call call) const { return call == Call::adapter ? adapter_.onset_mesh() : mesh_; }
-  // d_hat: of the close pairs, > 0. The adapter takes a tolerance, a number of checks and a Euclidean
-  // separation.
+  // d_hat: of the close pairs, > 0; keep: the share of all calls that have one. The adapter takes a
+  // tolerance, a number of checks and a Euclidean separation.
   CallStep ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Options& options,
-               double d_hat) const;
+               double d_hat, double keep = kKeep) const;
 
  private:
   CallStep search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
-                  const Options& options) const;
+                  const Options& options, double keep) const;
 
   Mesh mesh_;
   ipc::CollisionMesh adapter_;

@@ -44,8 +44,11 @@ static bool starts_beyond(const Query& motion, double d, double rounding, Norm n
 
 static const char* broken_by_storing(const Query& motion, double d, double step, double rounding, Norm norm) {
   if (oracle::boxes_apart(motion, d + 2 * rounding)) return "";
+  std::array<Point, 4> last{};
   for (oracle::Rounding how : oracle::kRoundings) {
     const auto end = oracle::stored(how, motion, step);
+    if (how != oracle::Rounding::product && end == last) continue;
+    last = end;
     if (const char* broken = oracle::broken_on_the_way(motion, step, end); *broken) return broken;
     if (d > 0 && starts_beyond(motion, d, std::max(rounding, slack(motion, d) / 2), norm) &&
         oracle::compare_distance_at_rest(motion.kind, end, d, norm) <= 0)
@@ -70,14 +73,18 @@ std::string broken_by_moving(const Asked& asked, const SceneTruth& truth, double
   return broken;
 }
 
-std::string stuck(const Asked& asked, const SceneTruth& truth, const StepResult& r) {
-  if (r.step > 0 || truth.initial()) return {};
+std::string stuck(const Asked& asked, const StepResult& r) {
+  if (r.step > 0) return {};
   if (!(r.rounding >= 0 && r.rounding < INFINITY)) return "a step of 0 without a rounding";
-  bool near = false;
+  const auto has_room = [&](PairKind kind, const std::array<int, 4>& v) {
+    const Query motion = query_of(kind, v, asked.x_t0, asked.x_t1),
+                at_rest = query_of(kind, v, asked.x_t0, asked.x_t0);
+    const double d = asked.separation(kind, v), gap = std::max(r.rounding, slack(motion, d) / 2);
+    return oracle::boxes_apart(at_rest, d + 2 * gap) || starts_beyond(motion, d, gap, asked.options.norm);
+  };
+  bool near = r.limiting.a >= 0 && !has_room(r.limiting.kind, r.limiting.vertices);
   for_all_pairs(asked.mesh, [&](PairKind kind, int, int, const std::array<int, 4>& v) {
-    const Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
-    const double d = asked.separation(kind, v);
-    near |= !starts_beyond(motion, d, std::max(r.rounding, slack(motion, d) / 2), asked.options.norm);
+    near = near || !has_room(kind, v);
   });
   return near ? "" : "a step of 0 though every gap is more than twice the rounding";
 }
@@ -94,7 +101,8 @@ std::string share_lost(const Asked& asked, const CallStep& step) {
     if (!(gap > 2 * r.rounding / (1 - step.keep))) return;
     const double left = std::min(step.keep * gap, step.reach) * (1 - 0x1p-40) - r.rounding;
     const auto end = oracle::stored(oracle::Rounding::product, motion, r.step);
-    if (left > 0 && oracle::compare_distance_at_rest(kind, end, d + left, asked.options.norm) < 0)
+    if (left > 0 && !oracle::boxes_apart({kind, end, end}, d + left) &&
+        oracle::compare_distance_at_rest(kind, end, d + left, asked.options.norm) < 0)
       lost = at("keeps less of its gap", {kind, a, b}, motion);
   });
   return lost;

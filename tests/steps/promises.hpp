@@ -14,8 +14,8 @@ namespace onset::tests {
 // operations, do so too; parting pairs come no closer than they were.
 std::string broken_by_moving(const Asked& asked, const SceneTruth& truth, double step, double rounding);
 
-// A step of 0 where nothing touches and every gap is more than twice `rounding`.
-std::string stuck(const Asked& asked, const SceneTruth& truth, const StepResult& r);
+// A step of 0 where every gap is more than twice the rounding that is told.
+std::string stuck(const Asked& asked, const StepResult& r);
 
 // toi, toi_hi, outcome and limiting pair say what is so. Exact times are promised by Call::whole alone; a
 // step from close pairs may end before 1 without a pair.
@@ -32,8 +32,8 @@ std::string disagreement(const StepResult& r, const ActiveSet& set, bool free);
 // A pair that keeps less of its gap than it was to.
 std::string share_lost(const Asked& asked, const CallStep& step);
 
-// Everything above, of all calls; d_hat > 0: of the close pairs. What the adapter cannot take it is not
-// asked.
-std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat);
+// Everything above, of all calls; d_hat > 0: of the close pairs; keep: the share. What the adapter cannot
+// take it is not asked.
+std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat, double keep = kKeep);
 
 }  // namespace onset::tests

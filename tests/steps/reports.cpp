@@ -90,9 +90,8 @@ std::string wrong_set(const Asked& asked, const SceneTruth& truth, const ActiveS
   if (decides_exactly(asked) && found < set.size()) return "a row that is no contact";
   for (std::size_t i = 0; i < set.size(); ++i)
     if (!(set.toi[i] >= 0 && set.toi[i] <= 1)) return "toi of a row outside [0, 1]";
-  const double window = asked.options.window;
-  if (set.size() > 0 && window == INFINITY && set.complete_until != INFINITY)
-    return "not complete without a reason";
+  const bool whole = asked.options.window == INFINITY && set.outcome != Outcome::out_of_memory;
+  if (whole && set.complete_until != INFINITY) return "not complete without a reason";
   return {};
 }
 
@@ -111,27 +110,43 @@ static std::string by(const char* call, const std::string& broken) {
   return broken.empty() ? broken : std::string(call) + ": " + broken;
 }
 
-static std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Calls& calls, Call call,
-                                  double d_hat) {
-  const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat);
+namespace {
+
+// A step that was found to be safe for the motion asked about: what needs not be looked at again.
+struct Safe {
+  double step, rounding;
+};
+
+std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Calls& calls, Call call,
+                           double d_hat, double keep, std::vector<Safe>& safe) {
+  const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat, keep);
+  const StepResult& r = step.result;
   const Eigen::MatrixXd end = end_of(call, asked.x_t0, asked.x_t1);
   const Asked told{calls.mesh(call), asked.x_t0, end, asked.options, asked.thickness};
   const bool another = end != asked.x_t1 || told.mesh.num_points() > 0;
   const SceneTruth of_end = another ? SceneTruth(told) : truth;
-  std::string broken = broken_by_moving(told, of_end, step.result.step, step.result.rounding);
-  if (broken.empty()) broken = stuck(told, of_end, step.result);
-  if (broken.empty() && step.says_outcome) broken = wrong_report(told, of_end, step.result, call);
+  const bool known = !another && std::any_of(safe.begin(), safe.end(), [&](const Safe& s) {
+    return r.step == s.step && r.rounding >= s.rounding;
+  });
+  std::string broken = known ? "" : broken_by_moving(told, of_end, r.step, r.rounding);
+  if (broken.empty() && !another) safe.push_back({r.step, r.rounding});
+  if (broken.empty()) broken = stuck(told, r);
+  if (broken.empty() && step.says_outcome) broken = wrong_report(told, of_end, r, call);
   if (broken.empty()) broken = share_lost(told, step);
   return by(name(call), broken);
 }
 
-std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat) {
+}  // namespace
+
+std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat, double keep) {
   const SceneTruth truth(asked);
+  std::vector<Safe> safe;
   for (Call call : kCalls) {
     const bool told =
         call != Call::adapter || (asked.options.norm == Norm::euclidean && asked.thickness.empty());
     if (!told) continue;
-    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat); !broken.empty()) return broken;
+    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, keep, safe); !broken.empty())
+      return broken;
   }
   const StepResult r = compute_collision_free_stepsize(asked.mesh, asked.x_t0, asked.x_t1, asked.options);
   const ActiveSet set = construct_active_set(asked.mesh, asked.x_t0, asked.x_t1, asked.options);

@@ -22,20 +22,22 @@ SceneTruth::SceneTruth(const Asked& asked) {
   });
 }
 
+static void take_earlier(oracle::Truth& first, const oracle::Truth& t) {
+  first.collides = true;
+  first.toi_lo = std::min(first.toi_lo, t.toi_lo), first.toi_hi = std::min(first.toi_hi, t.toi_hi);
+}
+
 oracle::Truth SceneTruth::first_met() const {
   oracle::Truth first;
   for (const PairTruth& pair : contacts)
-    if (!(pair.initial() && !pair.touching) && pair.within.toi_lo < first.toi_lo) first = pair.within;
+    if (pair.touching || !pair.initial()) take_earlier(first, pair.within);
   return first;
 }
 
 oracle::Truth SceneTruth::first() const {
-  oracle::Truth t;
-  for (const PairTruth& pair : contacts) {
-    t.collides = true;
-    t.toi_lo = std::min(t.toi_lo, pair.within.toi_lo), t.toi_hi = std::min(t.toi_hi, pair.within.toi_hi);
-  }
-  return t;
+  oracle::Truth first;
+  for (const PairTruth& pair : contacts) take_earlier(first, pair.within);
+  return first;
 }
 
 const PairTruth* SceneTruth::touching() const {

@@ -40,7 +40,8 @@ struct SceneTruth {
   std::vector<PairTruth> contacts;
   explicit SceneTruth(const Asked& asked);
   oracle::Truth first() const;
-  oracle::Truth first_met() const;      // without pairs that start within their separation and do not touch: they may part
+  oracle::Truth first_met()
+      const;  // without pairs that start within their separation and do not touch: they may part
   const PairTruth* touching() const;  // the first pair that touches at the start
   bool initial() const { return first().toi_hi == 0; }
 };

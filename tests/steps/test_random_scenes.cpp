@@ -25,15 +25,16 @@ struct Counts {
   int scenes = 0, contacts = 0, initial = 0, at_the_end = 0;
 };
 
-void check_scene(const StepScene& scene, const Options& options, double d_hat, Counts& counts) {
+void check_scene(const StepScene& scene, const Options& options, double d_hat, double keep, Counts& counts) {
   const Calls calls(scene);
   const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, {}};
   const oracle::Truth first = SceneTruth(asked).first();
   ++counts.scenes, counts.contacts += first.collides, counts.initial += first.toi_hi == 0;
   counts.at_the_end += first.toi_lo == 1;
-  const std::string broken = broken_promise(asked, calls, d_hat);
+  const std::string broken = broken_promise(asked, calls, d_hat, keep);
   if (broken.empty()) return;
-  INFO(to_text(options) << ", d_hat " << d_hat << ", exact " << first.toi_lo << " " << first.toi_hi);
+  INFO(to_text(options) << ", d_hat " << d_hat << ", keep " << keep << ", exact " << first.toi_lo << " "
+                        << first.toi_hi);
   FAIL_CHECK(broken);
 }
 
@@ -49,7 +50,10 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
     const StepScene scene = make(random);
     const Options options = random_options(scene, random);
     INFO("scene " << i);
-    check_scene(scene, options, some_d_hat(scene, random), counts);
+    const double keep = scenes::coin(random)   ? kKeep
+                        : scenes::coin(random) ? 0
+                                               : scenes::uniform(random, 0, 0.99);
+    check_scene(scene, options, some_d_hat(scene, random), keep, counts);
   }
   return counts;
 }
@@ -57,23 +61,23 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
 }  // namespace
 
 TEST_CASE("no step of a scene on a grid is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(200), 1, grid_scene);
+  const Counts c = check_scenes(oracle::fuzz(100), 1, grid_scene);
   CHECK(10 * c.contacts > 5 * c.scenes);
   CHECK(20 * c.initial > c.scenes);
 }
 
 TEST_CASE("no step of a scene over a floor is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(200), 2, floor_scene);
+  const Counts c = check_scenes(oracle::fuzz(150), 2, floor_scene);
   CHECK(10 * c.contacts > 4 * c.scenes);
   CHECK(20 * c.at_the_end > c.scenes);
 }
 
 TEST_CASE("no step of pairs of any family in one scene is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(200), 3, family_scene);
+  const Counts c = check_scenes(oracle::fuzz(150), 3, family_scene);
   CHECK(10 * c.contacts > 2 * c.scenes);
 }
 
 TEST_CASE("no step of tetrahedra that meet is late, whatever is asked", "[property][oracle]") {
-  const Counts c = check_scenes(oracle::fuzz(50), 4, tetrahedra);
+  const Counts c = check_scenes(oracle::fuzz(25), 4, tetrahedra);
   CHECK(10 * c.contacts > 2 * c.scenes);
 }
