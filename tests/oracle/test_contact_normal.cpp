@@ -24,7 +24,7 @@ using Exact = RationalVector;
 constexpr double kU = 0x1p-53;
 
 Mesh mesh_of(PairKind kind) {
-  if (kind == PairKind::vertex_face) return Mesh(4, Eigen::MatrixXi(0, 2), Eigen::RowVector3i(1, 2, 3));
+  if (kind == PairKind::vertex_face) return Mesh(4, Eigen::RowVector3i(1, 2, 3));
   Eigen::MatrixXi edges(2, 2);
   edges << 0, 1, 2, 3;
   return Mesh(4, edges, Eigen::MatrixXi(0, 3));
@@ -157,7 +157,8 @@ class RowCheck {
       // The constraint of this row holds where the pair comes from.
       CHECK(Rational(dot(n_, difference(motion_.x0))) >= -Rational(gap_ > 0 ? noise : still));
     }
-    // Whether a pair parts is asked along a direction in doubles, off by a few roundings of the size over the gap.
+    // Whether a pair parts is asked along a direction in doubles, off by a few roundings of the size over the
+    // gap.
     const double tilt = flagged_ ? 0 : 0x1p-44 * motion_.rho / gap_ * PairMotion::length(moved);
     if (past == Past::parting) CHECK(set_.speed[0] >= -still - tilt);
   }
@@ -186,12 +187,11 @@ Query turned(Query q) {
 }
 
 // At all levels of certainty, with both kernels and both windings.
-void check_all(const Query& query, Past past, double separation, Counts& counts) {
+void check_all(const Query& query, Past past, Options o, Counts& counts) {
   for (const Query& q : {query, turned(query)})
     for (const CertaintyLevel level :
          {CertaintyLevel::conservative, CertaintyLevel::certify, CertaintyLevel::exact}) {
-      Options o;
-      o.certainty = level, o.min_separation = separation, o.kernel = Kernel::scalar, o.threads = 1;
+      o.certainty = level, o.kernel = Kernel::scalar, o.threads = 1;
       const Mesh mesh = mesh_of(q.kind);
       const Eigen::MatrixXd x0 = matrix(q.t0), x1 = matrix(q.t1);
       const ActiveSet set = construct_active_set(mesh, x0, x1, o);
@@ -201,7 +201,7 @@ void check_all(const Query& query, Past past, double separation, Counts& counts)
       }
       if (set.size() == 0) continue;
       INFO(scenes::to_text(q));
-      CAPTURE(int(level), separation);
+      CAPTURE(int(level), o.min_separation, o.touching_may_pass_through);
       const Past here = set.status[0] == Outcome::initial_separating ? Past::parting
                         : set.status[0] == Outcome::contact          ? past
                                                                      : Past::any;
@@ -286,16 +286,22 @@ void print(const char* name, const Counts& c) {
 
 template <class Make>
 void check_many(const char* name, int count, std::uint64_t which, Past past, Make&& make,
-                double separation = 0) {
+                const Options& options = {}) {
   Counts counts;
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     Random random(oracle::fuzz_seed() * 100 + 2 * which + (kind == PairKind::edge_edge));
     for (int i = 0; i < oracle::fuzz(count); ++i) {
       const Query q = make(kind, random);
-      check_all(q, past, separation, counts);
+      check_all(q, past, options, counts);
     }
   }
   print(name, counts);
+}
+
+Options apart_by(double separation) {
+  Options o;
+  o.min_separation = separation;
+  return o;
 }
 
 Point tiny_across(const Contact& c, Random& random) {
@@ -341,11 +347,17 @@ TEST_CASE("grazing contacts have their normal on the side they touch from", "[or
 }
 
 TEST_CASE("contacts that touch at the start are flagged, and part along their normal", "[oracle][property]") {
-  check_many("touching at the start", 60, 4, Past::any, [](PairKind kind, Random& random) {
-    const Contact c(kind, scenes::coin(random), random);
-    const Point extra = scenes::times(scenes::integer(random, -1, 1) * 0.25, c.across);
-    return placed(c.query(kind, 0, scenes::plus(extra, c.along)), random);
-  });
+  Options passing;
+  passing.touching_may_pass_through = true;
+  for (const Options& options : {Options(), passing})
+    check_many(
+        "touching at the start", 40, 4, Past::any,
+        [](PairKind kind, Random& random) {
+          const Contact c(kind, scenes::coin(random), random);
+          const Point extra = scenes::times(scenes::integer(random, -1, 1) * 0.25, c.across);
+          return placed(c.query(kind, 0, scenes::plus(extra, c.along)), random);
+        },
+        options);
 }
 
 TEST_CASE("pairs within a separation that part do so along their normal", "[oracle][property]") {
@@ -361,14 +373,14 @@ TEST_CASE("pairs within a separation that part do so along their normal", "[orac
           for (auto* x : {&q.t0, &q.t1}) (*x)[std::size_t(i)] = scenes::plus((*x)[std::size_t(i)], from);
         return q;
       },
-      0.001);
+      apart_by(0.001));
 }
 
 TEST_CASE("contacts of random pairs, with and without a separation, have the normal of their gap",
           "[oracle][property]") {
   const auto make = [](PairKind kind, Random& random) { return scenes::mixed_query(kind, random); };
   check_many("random", 60, 6, Past::any, make);
-  check_many("random, apart", 60, 7, Past::any, make, 0.01);
+  check_many("random, apart", 60, 7, Past::any, make, apart_by(0.01));
 }
 
 namespace {
