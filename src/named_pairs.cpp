@@ -19,7 +19,8 @@ void NamedPairs::check_id(Primitive kind, int id) const {
 }
 
 void NamedPairs::add(PairKind kind, int a, int b) {
-  if (std::size_t(kind) >= pairs_.size()) reject("kind " + std::to_string(int(kind)) + " is no kind of pair");
+  if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end())
+    reject("kind " + std::to_string(int(kind)) + " is no kind of pair");
   check_id(first_primitive(kind), a);
   check_id(second_primitive(kind), b);
   if (kind == PairKind::edge_edge && a == b) reject("edge " + std::to_string(a) + " is repeated");

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "src/scene.hpp"
-
 namespace onset {
 
 // Leaves the rows of static vertices to the next call on the mesh.
@@ -13,11 +11,12 @@ Rest::~Rest() {
 
 void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& budget) {
   if (motion.status != Outcome::free || budget.spent()) return;
-  BroadPhaseInput input = broad_phase_input(mesh.data(), motion, options, 0, 1, BoxTest::swept);
-  if (pairs == Pairs::edge_face) {
-    input.edges_against_faces = true;
-    input.inflation = input.fixed_inflation = 0;
-  }
+  const bool edge_face = pairs == Pairs::edge_face;
+  BroadPhaseInput input{mesh.data(), motion};
+  input.inflation = edge_face ? 0 : 0.5 * options.min_separation * (1 + 0x1p-50);
+  input.test = BoxTest::swept;
+  input.kernel = options.kernel;
+  input.edges_against_faces = edge_face;
   broad = make_broad_phase(options.broad_phase, input);
 }
 

@@ -49,9 +49,9 @@ struct Intersections {
 // Every edge and face with a common point at x (#V x 3), for the stored doubles, without a tolerance and at any scale.
 // Pairs that share a vertex are no pairs, and those that the mesh leaves out are left out here (Mesh: static against
 // static too, which no step can mend; vertices at one place count as one with Mesh::set_weld). Points declared by
-// Mesh::set_points are edges of length zero; other vertices are in the list only with their edges: check() looks at
-// vertices against faces. Of the options only budgets, progress, threads, broad_phase and kernel matter; separation and
-// thickness do not. Throws std::invalid_argument for a wrong number of rows or options out of range. Safe to call
+// Mesh::set_points are edges of length zero; other vertices are in the list only with their edges. check() looks at
+// vertices against faces too, where a face folded flat onto its neighbour shows. Of the options only time_limit,
+// memory_limit, progress, threads, broad_phase and kernel matter. Throws std::invalid_argument for a wrong number of rows or options out of range. Safe to call
 // concurrently on one Mesh.
 ONSET_API Intersections intersections(const Mesh& mesh, const Positions& x, const Options& options = {});
 

@@ -120,7 +120,9 @@ TEST_CASE("pairs to leave out are named by row where they are none", "[unit]") {
   CHECK_THROWS_WITH(with({PairKind::vertex_face, 0, 24, {}}), Catch::Contains("row 1: face 24"));
   CHECK_THROWS_WITH(with({PairKind::edge_edge, -1, 3, {}}), Catch::Contains("row 1: edge -1"));
   CHECK_THROWS_WITH(with({PairKind::edge_edge, 3, 3, {}}), Catch::Contains("row 1: edge 3 is repeated"));
-  CHECK_THROWS_WITH(with({PairKind(9), 3, 3, {}}), Catch::Contains("row 1") && Catch::Contains("kind 9"));
+  for (const int kind : {2, 9})
+    CHECK_THROWS_WITH(with({PairKind(kind), 3, 4, {}}),
+                      Catch::Contains("row 1") && Catch::Contains("kind " + std::to_string(kind)));
   CHECK_THROWS_WITH(mesh.set_excluded_intersections({{0, 24, IntersectionKind::crossing, {}}}),
                     Catch::Contains("excluded intersections row 0: face 24"));
   CHECK(mesh.plan().vertex_face.excluded == 0);
