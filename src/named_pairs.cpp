@@ -11,7 +11,8 @@ void NamedPairs::reject(const std::string& why) const {
 }
 
 void NamedPairs::check_id(Primitive kind, int id) const {
-  static constexpr const char* kNames[][2] = {{"vertex ", " vertices"}, {"edge ", " edges"}, {"face ", " faces"}};
+  static constexpr const char* kNames[][2] = {
+      {"vertex ", " vertices"}, {"edge ", " edges"}, {"face ", " faces"}};
   const char* const(&name)[2] = kNames[std::size_t(kind)];
   const std::size_t count = primitive_count(mesh_, kind);
   if (id < 0 || std::size_t(id) >= count)

@@ -15,7 +15,8 @@ class NamedPairs {
   NamedPairs(const char* what, const MeshData& mesh, std::vector<PairKind> kinds)
       : what_(what), mesh_(mesh), kinds_(std::move(kinds)) {}
 
-  // The next row. Throws std::invalid_argument naming it for another kind, an id out of range, or an edge and itself.
+  // The next row. Throws std::invalid_argument naming it for another kind, an id out of range, or an edge and
+  // itself.
   void add(PairKind kind, int a, int b);
   // Sorted, each once; two edges with the smaller id first.
   std::vector<std::array<int, 2>> of(PairKind kind) const;

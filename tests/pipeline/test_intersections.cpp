@@ -1,4 +1,5 @@
-// The list of edges through faces against every pair in exact arithmetic, under every rule, method and budget.
+// The list of edges through faces against every pair in exact arithmetic, under every rule, method and
+// budget.
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -6,9 +7,9 @@
 
 #include "base/dispatch.hpp"
 #include "tests/catch.hpp"
+#include "tests/oracle/promises.hpp"
 #include "tests/pipeline/brute_intersections.hpp"
 #include "tests/pipeline/crowds.hpp"
-#include "tests/oracle/promises.hpp"
 
 using namespace onset;
 using namespace onset::tests;
@@ -27,7 +28,8 @@ bool same(const Intersections& a, const Intersections& b) {
 
 std::vector<Options> all_ways() {
   std::vector<Options> ways;
-  for (const BroadPhaseMethod method : {BroadPhaseMethod::bvh, BroadPhaseMethod::hash, BroadPhaseMethod::brute})
+  for (const BroadPhaseMethod method :
+       {BroadPhaseMethod::bvh, BroadPhaseMethod::hash, BroadPhaseMethod::brute})
     for (const Kernel kernel : {Kernel::scalar, Kernel::avx2})
       for (const int threads : {1, 2, 4}) {
         if (kernel == Kernel::avx2 && !has_avx2()) continue;
@@ -50,7 +52,8 @@ void check_all_ways(const Mesh& mesh, const Eigen::MatrixXd& x, const std::vecto
 
 }  // namespace
 
-TEST_CASE("intersections are those of all edges and faces, by any method and any number of threads", "[oracle][property]") {
+TEST_CASE("intersections are those of all edges and faces, by any method and any number of threads",
+          "[oracle][property]") {
   Random random(80 + oracle::fuzz_seed());
   std::size_t counts[3] = {}, none = 0;
   for (int round = 0; round < oracle::fuzz(24); ++round) {
@@ -109,15 +112,22 @@ TEST_CASE("intersections keep to the rules of the mesh", "[oracle][property]") {
     std::vector<bool> odd(std::size_t(mesh.num_bodies()));
     for (std::size_t b = 1; b < odd.size(); b += 2) odd[b] = true;
     mesh.set_static(mesh.of_bodies(odd));
-    check(mesh, [&](int e, int f) { return !odd[std::size_t(body_of_edge(e))] || !odd[std::size_t(body_of_face(f))]; });
+    check(mesh, [&](int e, int f) {
+      return !odd[std::size_t(body_of_edge(e))] || !odd[std::size_t(body_of_face(f))];
+    });
     mesh = crowd.mesh, mesh.set_bodies(body), mesh.set_rigid(odd);
-    check(mesh, [&](int e, int f) { return body_of_edge(e) != body_of_face(f) || !odd[std::size_t(body_of_edge(e))]; });
+    check(mesh, [&](int e, int f) {
+      return body_of_edge(e) != body_of_face(f) || !odd[std::size_t(body_of_edge(e))];
+    });
     if (mesh.num_bodies() > 1) {
       mesh = crowd.mesh, mesh.set_bodies(body), mesh.set_excluded_bodies({{0, 1}});
-      check(mesh, [&](int e, int f) { return body_of_edge(e) + body_of_face(f) != 1 || body_of_edge(e) == body_of_face(f); });
+      check(mesh, [&](int e, int f) {
+        return body_of_edge(e) + body_of_face(f) != 1 || body_of_edge(e) == body_of_face(f);
+      });
     }
     std::vector<Intersection> named;
-    for (std::size_t i = 0; i < all.size(); i += 2) named.push_back({all[i].edge, all[i].face, all[i].kind, {}});
+    for (std::size_t i = 0; i < all.size(); i += 2)
+      named.push_back({all[i].edge, all[i].face, all[i].kind, {}});
     mesh = crowd.mesh, mesh.set_excluded_intersections(named);
     std::size_t i = 0;
     check(mesh, [&](int, int) { return i++ % 2 == 1; });
