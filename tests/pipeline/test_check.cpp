@@ -1,4 +1,5 @@
 // What is said about a start, against exact arithmetic; and that the calls it names cure it.
+#include <algorithm>
 #include <onset/onset.hpp>
 
 #include "tests/catch.hpp"
@@ -74,7 +75,7 @@ struct Seam {
 TEST_CASE("touching pairs are those at distance zero, exactly", "[oracle][property]") {
   Random random(90 + oracle::fuzz_seed());
   std::size_t found[2] = {};
-  for (int round = 0; round < oracle::fuzz(12); ++round) {
+  for (int round = 0; round < std::max(6, oracle::fuzz(12)); ++round) {
     const Crowd crowd = some_crowd(round, random);
     INFO(crowd.name << ", round " << round);
     const std::vector<Key> expected = touching_pairs(crowd);
@@ -91,13 +92,13 @@ TEST_CASE("touching pairs are those at distance zero, exactly", "[oracle][proper
     }
     for (const Key& k : expected) ++found[std::size_t(k.kind)];
   }
-  CHECK((found[0] > 100 && found[1] > 100));
+  CHECK((found[0] > 30 && found[1] > 30));
 }
 
 TEST_CASE("pairs within the separation are those that come as close, in either norm", "[oracle][property]") {
   Random random(91 + oracle::fuzz_seed());
   std::size_t found[2] = {}, beyond_by_rounding = 0;
-  for (int round = 0; round < oracle::fuzz(12); ++round) {
+  for (int round = 0; round < std::max(6, oracle::fuzz(12)); ++round) {
     Crowd crowd = round % 2 ? grid_crowd(10, 3, random) : some_crowd(round / 2, random);
     std::vector<double> thickness(std::size_t(crowd.mesh.num_vertices()), 0);
     if (round % 3 == 0)
@@ -130,7 +131,7 @@ TEST_CASE("pairs within the separation are those that come as close, in either n
       found[o.norm == Norm::maximum] += is_listed;
     });
   }
-  CHECK((found[0] > 100 && found[1] > 100));
+  CHECK((found[0] > 30 && found[1] > 30));
   CHECK(beyond_by_rounding < (found[0] + found[1]) / 4);
 }
 

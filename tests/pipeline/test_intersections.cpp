@@ -56,7 +56,7 @@ TEST_CASE("intersections are those of all edges and faces, by any method and any
           "[oracle][property]") {
   Random random(80 + oracle::fuzz_seed());
   std::size_t counts[3] = {}, none = 0;
-  for (int round = 0; round < oracle::fuzz(24); ++round) {
+  for (int round = 0; round < std::max(6, oracle::fuzz(24)); ++round) {
     const Crowd crowd = some_crowd(round, random);
     INFO(crowd.name << ", round " << round);
     const std::vector<Found> expected = brute_intersections(crowd.mesh, crowd.x);
@@ -64,7 +64,7 @@ TEST_CASE("intersections are those of all edges and faces, by any method and any
     for (const Found& p : expected) ++counts[std::size_t(p.kind)];
     none += expected.empty();
   }
-  for (const std::size_t n : counts) CHECK(n > 20);
+  for (const std::size_t n : counts) CHECK(n > 10);
   CHECK(none > 0);
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("an intersection names its vertices, and its kind by one of three word
 TEST_CASE("intersections keep to the rules of the mesh", "[oracle][property]") {
   Random random(81 + oracle::fuzz_seed());
   std::size_t left = 0, kept = 0;
-  for (int round = 0; round < oracle::fuzz(10); ++round) {
+  for (int round = 0; round < std::max(6, oracle::fuzz(12)); ++round) {
     const Crowd crowd = some_crowd(round, random);
     const std::vector<Found> all = brute_intersections(crowd.mesh, crowd.x);
     const std::vector<int> body = crowd.mesh.components();
@@ -132,13 +132,13 @@ TEST_CASE("intersections keep to the rules of the mesh", "[oracle][property]") {
     std::size_t i = 0;
     check(mesh, [&](int, int) { return i++ % 2 == 1; });
   }
-  CHECK((left > 200 && kept > 200));
+  CHECK((left > 50 && kept > 50));
 }
 
 TEST_CASE("with welds, vertices at one place count as one", "[oracle][property]") {
   Random random(82 + oracle::fuzz_seed());
   std::size_t left = 0, kept = 0;
-  for (int round = 0; round < oracle::fuzz(10); ++round) {
+  for (int round = 0; round < std::max(6, oracle::fuzz(12)); ++round) {
     const Crowd crowd = some_crowd(round, random);
     Mesh welded = crowd.mesh, named = crowd.mesh;
     welded.set_weld(true);
@@ -154,7 +154,7 @@ TEST_CASE("with welds, vertices at one place count as one", "[oracle][property]"
     CHECK(has_intersections(welded, crowd.x) == !expected.empty());
     CHECK((plain(intersections(named, crowd.x).pairs) == expected));
   }
-  CHECK((left > 200 && kept > 200));
+  CHECK((left > 50 && kept > 50));
 }
 
 TEST_CASE("what cannot be looked at is an outcome, and counts as intersecting", "[unit]") {
