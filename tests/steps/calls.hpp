@@ -3,6 +3,7 @@
 
 #include <onset/ipc.hpp>
 #include <onset/onset.hpp>
+#include <optional>
 
 #include "tests/steps/scene_truth.hpp"
 
@@ -19,7 +20,8 @@ struct CallStep {
   StepResult result;
   double keep = 0;   // the share that every pair that is looked at keeps
   double reach = 0;  // a pair that stays farther beyond its separation than this may keep no more than this
-  bool says_outcome = true;  // false: only the step is known
+  bool says_outcome = true;        // false: only the step is known
+  std::optional<Candidates> only;  // the pairs that are looked at, where these are not all
 };
 
 class Calls {

@@ -16,7 +16,8 @@ static std::string wrong_start(const Asked& asked, const SceneTruth& truth, cons
   const PairTruth* first = truth.touching();
   if (asked.options.touching_may_pass_through || !first) return {};
   if (r.step != 0) return "moves though a pair touches";
-  if (r.outcome != Outcome::initial_contact) return "touches at the start, but the outcome is another";
+  if (r.outcome != Outcome::initial_contact)
+    return std::string("touches at the start, but the outcome is ") + to_string(r.outcome);
   if (r.toi != 0) return "touches at the start, but toi is not 0";
   const Key named{r.limiting.kind, r.limiting.a, r.limiting.b};
   if (first->key < named) return "the limiting pair is not the first that touches";
