@@ -89,7 +89,7 @@ double rounding_of_distances(const Motion& m);
 
 // What StepResult::rounding says: twice this is more than twice that bound and what a look at a start cannot tell, 100u of a pair's
 // rho, which is below 3.5 M.
-inline double reported_rounding(const Motion& m) { return rounding_of_distances(m) * 11; }
+inline double reported_rounding(double rounding_of_distances) { return rounding_of_distances * 11; }
 
 // Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j|
 // (edge-edge) that a pair with overlapping swept boxes can have (each side of the pair spans its swept

@@ -5,20 +5,6 @@
 namespace onset {
 namespace {
 
-Vec difference(const double* p, const double* q, double scale) {
-  return {{(p[0] - q[0]) * scale, (p[1] - q[1]) * scale, (p[2] - q[2]) * scale}};
-}
-// One rounding each.
-Differences<double> differences(PairKind kind, const double* const (&x)[4], double scale) {
-  const bool triangle = kind == PairKind::vertex_face;
-  Differences<double> d{kind, {}, {}, {}, {}};
-  for (int k = 0; k < d.corners(); ++k)
-    d.corner[k] = triangle ? difference(x[0], x[1 + k], scale) : difference(x[k / 2], x[2 + k % 2], scale);
-  d.q = d.corner[0];
-  d.a = triangle ? difference(x[2], x[1], scale) : difference(x[0], x[1], scale);
-  d.b = triangle ? difference(x[3], x[1], scale) : difference(x[3], x[2], scale);
-  return d;
-}
 double largest_corner(const Differences<double>& d) {
   double r = 0;
   for (int k = 0; k < d.corners(); ++k) r = std::max(r, dot(d.corner[k], d.corner[k]));
@@ -81,7 +67,7 @@ bool look(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& b
   const Vec w = point_at(d, foot);
   bounds.distance = std::sqrt(dot(w, w));
   bounds.upper = bounds.distance + error;
-  if (plane.resolved && !nearest.inside && bounds.upper - (most - error) > kWidest * rho) {
+  if (plane.resolved && !nearest.inside && bounds.upper - (most - error) > kWidest * rho + 8 * blur) {
     const Vec n = plane.normal(), towards = dot(n, d.q) < 0 ? -1 * n : n;
     if (const double across = margin(d, towards); across > most) most = across, nearest.direction = towards;
   }
@@ -89,7 +75,7 @@ bool look(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& b
   put_weights(d.kind, foot, r.weights);
   put_direction(unit(nearest.direction), r.direction);
   r.square = nearest.inside;
-  return bounds.lower > 0 && bounds.upper - bounds.lower <= kWidest * rho;
+  return bounds.lower > 0 && bounds.upper - bounds.lower <= kWidest * rho + 8 * blur;
 }
 
 VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
@@ -150,10 +136,17 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]) {
   if (largest == 0) return at_one_place(kind);
   ClosestPoints r;
   Bounds bounds;
-  const Differences<double> d = differences(kind, x, scale);
+  const Differences<double> d = rounded_differences(kind, x, scale);
   if (!look(d, 0, r, bounds))
     look_closer(precise_differences(kind, x, scale), largest_corner(d), 0, r, bounds);
   return in_model_length(r, bounds, scale);
+}
+
+bool quick_closest_points(const Differences<double>& d, double blur, ClosestPoints& r) {
+  Bounds bounds;
+  const bool told = look(d, blur, r, bounds);
+  r.distance = bounds.distance, r.lower = bounds.lower, r.upper = bounds.upper;
+  return told;
 }
 
 ClosestPoints precise_closest_points(const Differences<DoubleDouble>& d, double blur) {

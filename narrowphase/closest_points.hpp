@@ -36,6 +36,10 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]);
 ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
                              double t);
 
+// The same of differences that are one rounding and `blur` off; false where doubles do not tell, or the pair
+// may touch. All bounds grow by 8 blur. Lengths are in the differences' unit.
+bool quick_closest_points(const Differences<double>& d, double blur, ClosestPoints& r);
+
 // The same in double-doubles throughout, of differences that are off by `blur` at most: the direction is that
 // of the exact closest points within u + 2^-96 rho^2 / distance^2. Lengths are in the differences' unit; none
 // is beyond 2^10.

@@ -38,9 +38,13 @@ ExactPair exact_pair(PairKind kind, const Motion& motion, const std::array<int, 
   return r;
 }
 
+double coordinate(const double (&weights)[4], PairKind kind) {  // U
+  return kind == PairKind::vertex_face ? -weights[2] : weights[1];
+}
+
 // How p1 - p2 changes over the whole step.
 VecOf<DoubleDouble> motion_of(const PreciseMotion& m, const double (&weights)[4]) {
-  const DoubleDouble U = m.start.kind == PairKind::vertex_face ? -weights[2] : weights[1], V = -weights[3];
+  const DoubleDouble U = coordinate(weights, m.start.kind), V = -weights[3];
   return ((m.end.q - m.start.q) - U * (m.end.a - m.start.a)) - V * (m.end.b - m.start.b);
 }
 
@@ -106,30 +110,76 @@ class Touching {
   Vec across_{};  // a x b
 };
 
+bool rests(const ExactPair& pair) {
+  for (int i = 0; i < 4; ++i)
+    if (!std::equal(pair.t0[i], pair.t0[i] + 3, pair.t1[i])) return false;
+  return true;
+}
+
+// Lengths in units of the pair.
+struct Frame {
+  ClosestPoints near;
+  Vec normal;
+  double speed, unit;
+  bool degenerate;
+};
+
+// In doubles, where the gap is wide and the motion along it, if there is any, more than rounding; false: not
+// so. Mixed differences are 4u of their sizes at both ends off. A direction whose margin is within 2^-47 of
+// the distance, both of the size, is within 2^-17 of the right one at worst, where features tie, and within
+// 2^-40 else. Motions are sums of three differences, 12u of their size off at either end.
+bool wide_frame(const ExactPair& pair, double t, Frame& f) {
+  const double scale = inverse_unit(
+      std::max(largest_corner_component(pair.kind, pair.t0), largest_corner_component(pair.kind, pair.t1)));
+  const Differences<double> start = rounded_differences(pair.kind, pair.t0, scale),
+                            end = rounded_differences(pair.kind, pair.t1, scale);
+  const auto mixed = [t](const Vec& x, const Vec& y) { return (1 - t) * x + t * y; };
+  Differences<double> d{pair.kind, mixed(start.q, end.q), mixed(start.a, end.a), mixed(start.b, end.b), {}};
+  for (int k = 0; k < d.corners(); ++k) d.corner[k] = mixed(start.corner[k], end.corner[k]);
+  constexpr double kLargest = 4;  // corners are no longer
+  if (!quick_closest_points(d, 0x1p-51 * kLargest, f.near) || !(f.near.lower > 0x1p-12 * kLargest))
+    return false;
+  const double U = coordinate(f.near.weights, pair.kind), V = -f.near.weights[3];
+  const auto at = [&](const Differences<double>& x) { return (x.q - U * x.a) - V * x.b; };
+  f.normal = vec(f.near.direction);
+  f.speed = dot(f.normal, at(end) - at(start));
+  f.unit = 1 / scale;
+  f.degenerate = false;
+  return std::fabs(f.speed) > 0x1p-46 * kLargest || (f.speed == 0 && rests(pair));
+}
+
+Frame precise_frame(const ExactPair& pair, double t, bool parting, bool odd_axes) {
+  const PreciseMotion precise(pair.kind, pair.t0, pair.t1);
+  const Differences<DoubleDouble> d = precise.at(t);
+  Frame f{precise_closest_points(d, t == 0 ? 0 : PreciseMotion::kBlur), {}, 0, precise.unit, false};
+  f.normal = vec(f.near.direction);
+  const VecOf<DoubleDouble> moved = motion_of(precise, f.near.weights);
+  const bool inside =
+      f.near.square && std::none_of(f.near.weights, f.near.weights + 4, [](double w) { return w == 0; });
+  if (!(f.near.lower > (inside ? 0 : kResolved * precise.size))) {
+    const Vec past = rounded((parting ? 1.0 : -1.0) * moved);
+    const Touching touching(pair, d, f.near, past, t, odd_axes);
+    const int side = inside ? touching.side() : 0;
+    f.normal = inside ? touching.inside(side) : touching.at_boundary();
+    f.degenerate = side == 0;
+  }
+  f.speed = dot(VecOf<DoubleDouble>{{f.normal[0], f.normal[1], f.normal[2]}}, moved).hi;
+  return f;
+}
+
 }  // namespace
 
 ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
                            bool parting) {
   const ExactPair pair = exact_pair(kind, motion, vertices);
-  const PreciseMotion precise(kind, pair.t0, pair.t1);
-  const Differences<DoubleDouble> d = precise.at(t);
-  const ClosestPoints near = precise_closest_points(d, t == 0 ? 0 : PreciseMotion::kBlur);
-  const VecOf<DoubleDouble> moved = motion_of(precise, near.weights);
-  const bool inside =
-      near.square && std::none_of(near.weights, near.weights + 4, [](double w) { return w == 0; });
+  Frame f;
+  if (!wide_frame(pair, t, f)) f = precise_frame(pair, t, parting, odd(motion.axes));
   ContactFrame r;
-  Vec n = vec(near.direction);
-  if (!(near.lower > (inside ? 0 : kResolved * precise.size))) {
-    const Vec past = rounded((parting ? 1.0 : -1.0) * moved);
-    const Touching touching(pair, d, near, past, t, odd(motion.axes));
-    const int side = inside ? touching.side() : 0;
-    n = inside ? touching.inside(side) : touching.at_boundary();
-    r.degenerate = side == 0;
-  }
-  std::copy(near.weights, near.weights + 4, r.weight.begin());
-  for (int i = 0; i < 3; ++i) r.normal[std::size_t(motion.axes[std::size_t(i)])] = n[i] + 0.0;
-  r.gap = near.distance * precise.unit;
-  r.speed = dot(VecOf<DoubleDouble>{{n[0], n[1], n[2]}}, moved).hi * precise.unit + 0.0;
+  std::copy(f.near.weights, f.near.weights + 4, r.weight.begin());
+  for (int i = 0; i < 3; ++i) r.normal[std::size_t(motion.axes[std::size_t(i)])] = f.normal[i] + 0.0;
+  r.gap = f.near.distance * f.unit;
+  r.speed = f.speed * f.unit + 0.0;
+  r.degenerate = f.degenerate;
   return r;
 }
 

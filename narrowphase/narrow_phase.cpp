@@ -156,10 +156,8 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   const auto advance =
       kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
   advance(input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
-  std::vector<KernelResult>& exact = scratch.exact_results;
-  if (in_.stored) {  // what the exact motion says, too: within the tolerance the two can differ
-    exact.resize(std::size_t(survivors));
-    advance(without_storing(input, input.horizon), scratch.survivors.data(), survivors, nullptr, exact.data());
+  if (in_.stored) {
+    advance_exactly(kind, input, survivors, scratch);
   } else if (in_.options.certainty != CertaintyLevel::conservative) {
     const auto certify =
         kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
@@ -174,12 +172,34 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
     const std::int64_t before = scratch.stats.checks;
     scratch.stats.checks += r.checks;
     const Case c{kind, pairs[row], input, row};
-    if (in_.stored && (r.verdict != Verdict::free || exact[std::size_t(i)].verdict != Verdict::free))
+    if (in_.stored && (r.verdict != Verdict::free || scratch.touches[std::size_t(i)]))
       finish_stored(c, r, scratch.stats, out);
     else if (!in_.stored && r.verdict != Verdict::free)
       finish(c, r, 0, scratch.stats, out);
     scratch.stats.note_checks(pairs[row], scratch.stats.checks - before);
   }
+}
+
+// What the exact motion says of the pairs that `results` are of, too: within the tolerance the two can differ. A pair that is free after
+// its first check is so with a smaller demand from the same look.
+void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const {
+  scratch.touches.assign(std::size_t(survivors), 0);
+  scratch.asked.clear();
+  scratch.places.clear();
+  for (int i = 0; i < survivors; ++i) {
+    const KernelResult& r = scratch.results[std::size_t(i)];
+    if (r.verdict != Verdict::free || r.checks <= 1) continue;
+    scratch.asked.push_back(scratch.survivors[std::size_t(i)]);
+    scratch.places.push_back(i);
+  }
+  if (scratch.asked.empty()) return;
+  scratch.exact_results.resize(scratch.asked.size());
+  const auto advance =
+      kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
+  advance(without_storing(input, input.horizon), scratch.asked.data(), int(scratch.asked.size()), nullptr,
+          scratch.exact_results.data());
+  for (std::size_t k = 0; k < scratch.asked.size(); ++k)
+    scratch.touches[std::size_t(scratch.places[k])] = scratch.exact_results[k].verdict != Verdict::free;
 }
 
 double NarrowPhase::distance_at(const Case& c, double t) const {

@@ -74,7 +74,11 @@ struct NarrowPhaseStats {
 struct NarrowPhaseScratch {
   std::vector<int> vertices, survivors;  // 4 ids a pair
   std::vector<double> separation;
-  std::vector<KernelResult> results, exact_results;
+  std::vector<KernelResult> results;
+  // Where steps are stored: rows that the exact motion is asked about, their places among the results, and whether they touch.
+  std::vector<KernelResult> exact_results;
+  std::vector<int> asked, places;
+  std::vector<char> touches;
   NarrowPhaseStats stats;
 };
 
@@ -117,6 +121,7 @@ class NarrowPhase {
   // Of the exact motion.
   static KernelPairs without_storing(KernelPairs pairs, double horizon);
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
+  void advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const;
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   Corners corners_of(const Case& c) const;
   double distance_at(const Case& c, double t) const;  // scaled upper bound

@@ -3,6 +3,9 @@
 namespace onset {
 namespace {
 
+Vec rounded_difference(const double* p, const double* q, double scale) {
+  return {{(p[0] - q[0]) * scale, (p[1] - q[1]) * scale, (p[2] - q[2]) * scale}};
+}
 VecOf<DoubleDouble> difference(const double* p, const double* q, double scale) {
   VecOf<DoubleDouble> r;
   for (int i = 0; i < 3; ++i) r[i] = scaled(two_difference(p[i], q[i]), scale);
@@ -31,6 +34,18 @@ double largest_corner_component(PairKind kind, const double* const (&x)[4]) {
 
 double inverse_unit(double largest) {
   return largest > 0 ? std::ldexp(1.0, -std::max(std::ilogb(largest), -1021)) : 1;
+}
+
+Differences<double> rounded_differences(PairKind kind, const double* const (&x)[4], double scale) {
+  const bool triangle = kind == PairKind::vertex_face;
+  Differences<double> d{kind, {}, {}, {}, {}};
+  for (int k = 0; k < d.corners(); ++k)
+    d.corner[k] = triangle ? rounded_difference(x[0], x[1 + k], scale)
+                           : rounded_difference(x[k / 2], x[2 + k % 2], scale);
+  d.q = d.corner[0];
+  d.a = triangle ? rounded_difference(x[2], x[1], scale) : rounded_difference(x[0], x[1], scale);
+  d.b = triangle ? rounded_difference(x[3], x[1], scale) : rounded_difference(x[3], x[2], scale);
+  return d;
 }
 
 Differences<DoubleDouble> precise_differences(PairKind kind, const double* const (&x)[4], double scale) {

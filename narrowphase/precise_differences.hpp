@@ -13,6 +13,9 @@ double largest_corner_component(PairKind kind, const double* const (&x)[4]);
 // [2^-53, 2)); 1 where all are 0.
 double inverse_unit(double largest);
 
+// Times `scale`, one rounding each.
+Differences<double> rounded_differences(PairKind kind, const double* const (&x)[4], double scale);
+
 // Times `scale`, without error, but for what 2^-1074 is too coarse for; corners by 3u^2 of their size.
 Differences<DoubleDouble> precise_differences(PairKind kind, const double* const (&x)[4], double scale);
 

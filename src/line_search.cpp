@@ -103,7 +103,7 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
     h.start.vertex = h.scene->motion.bad_vertex;
     if (h.start.outcome != Outcome::free) return;
     h.rounding = h.scene->rounding;
-    h.start.rounding = reported_rounding(h.scene->motion);
+    h.start.rounding = reported_rounding(h.rounding);
     const bool held = h.scene->broad && h.fill(budget);
     h.start.outcome = budget.outcome();
     if (held) h.scene->give_back_broad();

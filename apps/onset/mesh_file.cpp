@@ -29,7 +29,8 @@ std::string way_out(const std::string& path, const std::string& ext) {
     if (ext == known)
       return " is not read: convert it with 'meshio convert " + path + " " + stem +
              ".ply' (pip install meshio; triangles and quads, not tetrahedra)";
-  for (const char* known : {".gltf", ".glb", ".fbx", ".dae", ".3mf", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".blend"})
+  for (const char* known :
+       {".gltf", ".glb", ".fbx", ".dae", ".3mf", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".blend"})
     if (ext == known) return " is not read: export it as .obj or .ply, from Blender say";
   for (const char* known : {".stp", ".step", ".igs", ".iges", ".brep"})
     if (ext == known)

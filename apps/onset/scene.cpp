@@ -41,7 +41,8 @@ std::string difference(const MeshFile& a, const MeshFile& b) {
   for (std::size_t f = 0; f < a.polygons.size(); ++f) {
     const auto begin = [f](const Polygons& p) { return p.corners.begin() + std::ptrdiff_t(p.begin(f)); };
     const std::size_t n = a.polygons.corners_of(f);
-    if (n != b.polygons.corners_of(f) || !std::equal(begin(a.polygons), begin(a.polygons) + std::ptrdiff_t(n), begin(b.polygons)))
+    const auto first = begin(a.polygons);
+    if (n != b.polygons.corners_of(f) || !std::equal(first, first + std::ptrdiff_t(n), begin(b.polygons)))
       return differing("face", f, corners(a.polygons, f), corners(b.polygons, f));
   }
   if (a.wires.size() != b.wires.size()) return counts("wires", a.wires.size(), b.wires.size());

@@ -58,7 +58,8 @@ void note_start(const Scene& scene, const onset::Options& options, bool in_conta
   if (!meets && !in_contact) return;
   const bool apart = !meets && options.min_separation > 0;
   outputs.note(std::string("the start ") + (meets ? "intersects or touches itself" : "touches itself") +
-               (apart ? ", or is closer than the separation" : "") + ": see 'onset check " + scene.path + "'" + seam_hint(scene));
+               (apart ? ", or is closer than the separation" : "") + ": see 'onset check " + scene.path + "'" +
+               seam_hint(scene));
 }
 
 std::string describe_sizes(const onset::Mesh& mesh) {

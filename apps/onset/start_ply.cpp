@@ -63,7 +63,8 @@ void write_start_ply(const std::string& path, const Scene& scene, const onset::S
   file.write(format("element edge %zu\nproperty int vertex1\nproperty int vertex2\nend_header\n", layer.edges.size()));
   for (const StartLayer::Corner& c : layer.corners) {
     const auto x = scene.x_t0.row(c.vertex);
-    file.write(format("%.17g %.17g %.17g %d %d %d %d\n", x(0), x(1), x(2), c.colour[0], c.colour[1], c.colour[2], c.vertex));
+    const auto [red, green, blue] = c.colour;
+    file.write(format("%.17g %.17g %.17g %d %d %d %d\n", x(0), x(1), x(2), red, green, blue, c.vertex));
   }
   for (const auto& f : layer.faces) file.write(format("3 %zu %zu %zu\n", f[0], f[1], f[2]));
   for (const auto& e : layer.edges) file.write(format("%zu %zu\n", e[0], e[1]));

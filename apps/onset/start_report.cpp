@@ -124,7 +124,8 @@ std::string describe(const StartFindings& f) {
   else if (r.clean())
     text += "clean\n";
   else
-    text += r.acceptable() ? "a step may start here, with what follows in mind\n" : "a step cannot start here\n";
+    text += r.acceptable() ? "a step may start here, with what follows in mind\n"
+                           : "a step cannot start here\n";
   if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
   for (const onset::StartFinding& finding : r.findings) {
     text += "\n" + finding.text + "\n" + describe_list(f, finding.fault);

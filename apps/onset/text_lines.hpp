@@ -21,6 +21,7 @@ class Lines {
   bool next(std::string_view& line);
   std::size_t number() const { return number_; }  // of the line that next() gave, from 1
   std::size_t left() const { return rest_.size(); }
+  bool starts_with(std::string_view text) const { return rest_.substr(0, text.size()) == text; }
 
  private:
   std::string_view rest_;

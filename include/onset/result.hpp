@@ -18,7 +18,7 @@ enum class PairKind : std::uint8_t { vertex_face, edge_edge };
 enum class Outcome : std::uint8_t {
   free,                // certified: farther apart than the separation for the whole step
   contact,             // comes within separation + tolerance at toi > 0
-  initial_contact,     // touching, or closer than the separation, at t = 0 and pressing: toi 0
+  initial_contact,     // touching, or closer than the separation, at t = 0, and not certified to part: toi 0
   initial_separating,  // the same at t = 0, but the motion parts the pair: toi 0, and a step may go on to
                        // step_limit
   budget,              // max_checks spent: free until toi, undecided after
@@ -120,19 +120,31 @@ struct ActiveSet {
       step_limit;  // how far the pair lets a step go: toi; initial_separating: the next contact, infinite if none
   std::vector<Outcome> status;  // contact, initial_contact, initial_separating or budget
   std::vector<Certainty> certainty;
-  std::vector<double> toi_hi;  // where certain: the pair has touched by then; else infinite. CertaintyLevel::exact,
-                               // separation 0: of the earliest contact, the double after toi or toi itself
+  // Finite only where certain: the pair has touched by then. With a separation it is infinite unless the pair touches
+  // at the start: that it comes as close is certain, by when is not told. CertaintyLevel::exact, separation 0: the
+  // earliest contact has adjacent doubles or one double for toi and toi_hi; which others have depends on the window
+  // and the budgets.
+  std::vector<double> toi_hi;
 
   // The pair at its toi, where the closest points p1 (of the first primitive) and p2 (of the second) are.
-  // weight: of the four `vertices`, clamped to the primitives; the first side's sum to 1, the second's to -1:
-  // p1 - p2 = sum_k weight[k] x[vertices[k]], a form that is linear in the positions at any time.
+  // weight: of the four `vertices`, clamped to the primitives, multiples of 2^-52; the first side's sum to 1, the
+  // second's to -1: p1 - p2 = sum_k weight[k] x[vertices[k]], a form that is linear in the positions at any time. Where
+  // several points are as close, as of parallel edges, any of them.
   std::vector<std::array<double, 4>> weight;
-  std::vector<std::array<double, 3>> normal;  // unit, from p2 to p1: where the first primitive came from
-  std::vector<double> gap;  // |p1 - p2|, model length (Euclidean, the separation not taken off)
-  std::vector<double>
-      speed;  // normal . (displacement of p1 - p2 in the whole step), model length; < 0: closing
-  // 1: the normal is one of several that would do (parallel edges, a face without area, contact at the
-  // boundary of a primitive, such as vertex on vertex); it is finite, unit and oriented all the same. Else 0.
+  // Unit, from p2 to p1 as the exact closest points lie, however close: where the first primitive came from. Where the two
+  // touch inside both primitives: the normal of the face, or of both edges, on the side that the pair was on just before
+  // toi, in exact arithmetic.
+  std::vector<std::array<double, 3>> normal;
+  // |p1 - p2|, model length (Euclidean, the separation not taken off): within 2^-46 of the pair's size of its distance
+  // at toi. The size is the largest corner difference at both ends of the step.
+  std::vector<double> gap;
+  // normal . (displacement of p1 - p2, these weights, in the whole step), model length; < 0: closing. A contact that
+  // grazes has one of about 0; a pair within a separation that parts, no less than rounding below 0.
+  std::vector<double> speed;
+  // 0: the normal is the only one: the gap resolves it, or the pair touches inside both primitives. 1: several would do,
+  // as gap is below 2^-46 of the pair's size and a point at the boundary of its primitive (or the edges are parallel, or
+  // the face has no area); or the side is not known, as the pair touches at t = 0 or is coplanar at all times. The normal
+  // is finite and unit all the same, and where the motion tells, speed has the sign that it should have.
   std::vector<std::uint8_t> degenerate;
 
   Outcome outcome = Outcome::free;  // contact where there is any entry; non_finite, out_of_range: the set is

@@ -44,6 +44,12 @@ class Wires(AppTest):
         self.assertEqual({row.split(",")[2] for row in rows.splitlines() if row.startswith("ee")} - {"3"}, set())
 
 
+    def test_wires_are_not_lost_by_refining(self):
+        path = self.write("a.obj", frame(*vertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (5, 5, 5)]), "f 1 2 3", "l 1 4"))
+        self.must_fail(2, ["--refine", "wires or points"], "bench", path, path, "--refine", "1", "--repeats", "0")
+        self.assertEqual(self.json("bench", path, path, "--repeats", "0")["scenes"][0]["edges"], 4)
+
+
 class PointsOfFiles(AppTest):
     def test_declared_points_meet_each_other(self):
         """p declares a point; two of them keep the separation, and a vertex of nothing does not."""

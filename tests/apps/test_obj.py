@@ -113,6 +113,7 @@ class Refused(AppTest):
         for keyword in ["curv", "curv2", "surf", "bzp", "call"]:
             self.refuse(8, "f 4 5 6", f"{keyword} 1 2 3", f"'{keyword}'", "not read")
         self.refuse(8, "f 4 5 6", "4 5 6", "'4'", "keyword")
+        self.must_fail(BAD, ["bad.obj", "UTF-16"], "plan", self.write("bad.obj", obj(START, FACES).encode("utf-16")))
 
     def test_line_numbers_count_all_lines(self):
         text = "\ufeff# one\r\n\r\nv 0 0 0\r\nv 1 \\\r\n0 0\r\nv 0 1 0\r\nf 1 2 9\r\n"
