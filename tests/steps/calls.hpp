@@ -28,6 +28,7 @@ class Calls {
  public:
   explicit Calls(const StepScene& scene)
       : mesh_(scene.mesh()), adapter_(scene.x_t0, scene.edges, scene.faces) {}
+  Mesh& mesh() { return mesh_; }  // to be told more; the adapter's is not
   const Mesh& mesh() const { return mesh_; }
   // That of the call: the adapter tests points against edges and each other as well.
   const Mesh& mesh(Call call) const { return call == Call::adapter ? adapter_.onset_mesh() : mesh_; }
