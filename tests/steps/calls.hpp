@@ -3,6 +3,7 @@
 
 #include <onset/ipc.hpp>
 #include <onset/onset.hpp>
+#include <optional>
 
 #include "tests/steps/scene_truth.hpp"
 
@@ -19,13 +20,15 @@ struct CallStep {
   StepResult result;
   double keep = 0;   // the share that every pair that is looked at keeps
   double reach = 0;  // a pair that stays farther beyond its separation than this may keep no more than this
-  bool says_outcome = true;  // false: only the step is known
+  bool says_outcome = true;        // false: only the step is known
+  std::optional<Candidates> only;  // the pairs that are looked at, where these are not all
 };
 
 class Calls {
  public:
   explicit Calls(const StepScene& scene)
       : mesh_(scene.mesh()), adapter_(scene.x_t0, scene.edges, scene.faces) {}
+  Mesh& mesh() { return mesh_; }  // to be told more; the adapter's is not
   const Mesh& mesh() const { return mesh_; }
   // That of the call: the adapter tests points against edges and each other as well.
   const Mesh& mesh(Call call) const { return call == Call::adapter ? adapter_.onset_mesh() : mesh_; }

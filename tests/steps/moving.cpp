@@ -89,6 +89,12 @@ std::string stuck(const Asked& asked, const StepResult& r) {
   return near ? "" : "a step of 0 though every gap is more than twice the rounding";
 }
 
+static bool is_looked_at(const CallStep& step, PairKind kind, int a, int b) {
+  if (!step.only) return true;
+  const auto& list = kind == PairKind::vertex_face ? step.only->vertex_face : step.only->edge_edge;
+  return std::binary_search(list.begin(), list.end(), std::array<int, 2>{a, b});
+}
+
 std::string share_lost(const Asked& asked, const CallStep& step) {
   std::string lost;
   const StepResult& r = step.result;
@@ -97,6 +103,7 @@ std::string share_lost(const Asked& asked, const CallStep& step) {
     const Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
     const double d = asked.separation(kind, v);
     if (!lost.empty() || oracle::boxes_apart(motion, d + step.reach + 2 * r.rounding)) return;
+    if (!is_looked_at(step, kind, a, b)) return;
     const double gap = oracle::distance(motion, 0, asked.options.norm).lo - d;
     if (!(gap > 2 * r.rounding / (1 - step.keep))) return;
     const double left = std::min(step.keep * gap, step.reach) * (1 - 0x1p-40) - r.rounding;

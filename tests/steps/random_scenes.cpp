@@ -144,6 +144,30 @@ StepScene tetrahedra(Random& random) {
   return b.scene();
 }
 
+StepScene crowded_scene(Random& random) {
+  Builder b;
+  const bool floor = scenes::coin(random), whole = scenes::coin(random);
+  const int most = integer(random, 4, 8);
+  const auto somewhere = [&](int size) {
+    return whole ? small_integers(random, size) : scenes::point(random, size);
+  };
+  if (floor)
+    b.add_element(true, [&, k = 0]() mutable {
+      const Point corners[] = {{-64, -64, 0}, {64, -64, 0}, {0, 128, 0}};
+      ++k;
+      return std::pair(corners[k - 1], corners[k - 1]);
+    });
+  for (int i = integer(random, 20, 40); i > 0; --i) {
+    Point where = somewhere(most), step = somewhere(2);
+    if (floor) where[2] = std::abs(where[2]) + 3, step = {0, 0, -where[2] * integer(random, 0, 3) / 2};
+    b.add_element(integer(random, 0, 4) != 0, [&] {
+      const Point p = scenes::plus(where, somewhere(1));
+      return std::pair(p, scenes::plus(p, step));
+    });
+  }
+  return b.scene();
+}
+
 StepScene random_scene(Random& random) {
   switch (integer(random, 0, 9)) {
     case 0:
@@ -189,6 +213,15 @@ Options random_options(const StepScene& scene, Random& random) {
   o.kernel = scenes::coin(random) ? Kernel::scalar : Kernel::automatic;
   o.threads = 1;
   return o;
+}
+
+std::vector<double> random_thickness(const StepScene& scene, Random& random) {
+  const double size = size_of(scene);
+  std::vector<double> t(std::size_t(scene.x_t0.rows()));
+  if (!(size > 0x1p-500 && size < 0x1p500)) return t;
+  const int exponent = std::ilogb(size);
+  for (double& x : t) x = scenes::coin(random) ? 0 : std::ldexp(1.0, exponent - integer(random, 3, 8));
+  return t;
 }
 
 }  // namespace onset::tests

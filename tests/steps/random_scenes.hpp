@@ -16,10 +16,16 @@ StepScene family_scene(scenes::Random& random);
 // Two tetrahedra that run into one another, or past.
 StepScene tetrahedra(scenes::Random& random);
 
+// Twenty to forty triangles with small integer or any coordinates, or that many over a floor.
+StepScene crowded_scene(scenes::Random& random);
+
 StepScene random_scene(scenes::Random& random);
 
 // Tolerances down to 1e-300, checks from 1, every method, norm and level; a separation in some, sized for the
 // scene.
 Options random_options(const StepScene& scene, scenes::Random& random);
+
+// Powers of two and zeros for some of the vertices: their sums with a separation that is one are exact.
+std::vector<double> random_thickness(const StepScene& scene, scenes::Random& random);
 
 }  // namespace onset::tests

@@ -16,7 +16,8 @@ static std::string wrong_start(const Asked& asked, const SceneTruth& truth, cons
   const PairTruth* first = truth.touching();
   if (asked.options.touching_may_pass_through || !first) return {};
   if (r.step != 0) return "moves though a pair touches";
-  if (r.outcome != Outcome::initial_contact) return "touches at the start, but the outcome is another";
+  if (r.outcome != Outcome::initial_contact)
+    return std::string("touches at the start, but the outcome is ") + to_string(r.outcome);
   if (r.toi != 0) return "touches at the start, but toi is not 0";
   const Key named{r.limiting.kind, r.limiting.a, r.limiting.b};
   if (first->key < named) return "the limiting pair is not the first that touches";
@@ -130,7 +131,8 @@ std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Ca
   });
   std::string broken = known ? "" : broken_by_moving(told, of_end, r.step, r.rounding);
   if (broken.empty() && !another) safe.push_back({r.step, r.rounding});
-  if (broken.empty()) broken = stuck(told, r);
+  const bool blind = call == Call::close && d_hat <= 2 * r.rounding;  // all that is known of pairs beyond it
+  if (broken.empty() && !blind) broken = stuck(told, r);
   if (broken.empty() && step.says_outcome) broken = wrong_report(told, of_end, r, call);
   if (broken.empty()) broken = share_lost(told, step);
   return by(name(call), broken);

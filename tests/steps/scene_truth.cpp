@@ -4,6 +4,13 @@
 
 namespace onset::tests {
 
+std::vector<int> StepScene::points() const {
+  std::vector<int> ids;
+  for (int v = 0; v < int(x_t0.rows()); ++v)
+    if (!(edges.array() == v).any()) ids.push_back(v);
+  return ids;
+}
+
 double Asked::separation(PairKind kind, const std::array<int, 4>& v) const {
   const int first = scenes::first_body(kind);
   if (thickness.empty()) return options.min_separation;

@@ -14,6 +14,7 @@ struct StepScene {
   Eigen::MatrixXd x_t0, x_t1;
   Eigen::MatrixXi edges, faces;
   Mesh mesh() const { return Mesh(x_t0, edges, faces); }
+  std::vector<int> points() const;  // the vertices of no edge
 };
 
 // What a call is asked, and of what.

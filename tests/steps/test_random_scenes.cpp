@@ -25,15 +25,25 @@ struct Counts {
   int scenes = 0, contacts = 0, initial = 0, at_the_end = 0;
 };
 
-void check_scene(const StepScene& scene, const Options& options, double d_hat, double keep, Counts& counts) {
-  const Calls calls(scene);
-  const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, {}};
+// What the mesh is told, and the calls that have these are asked.
+struct More {
+  double d_hat, keep;
+  bool points = false;
+  std::vector<double> thickness;
+};
+
+void check_scene(const StepScene& scene, const Options& options, const More& what, Counts& counts) {
+  Calls calls(scene);
+  if (what.points) calls.mesh().set_points(scene.points());
+  if (!what.thickness.empty()) calls.mesh().set_thickness(what.thickness);
+  const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, what.thickness};
   const oracle::Truth first = SceneTruth(asked).first();
   ++counts.scenes, counts.contacts += first.collides, counts.initial += first.toi_hi == 0;
   counts.at_the_end += first.toi_lo == 1;
-  const std::string broken = broken_promise(asked, calls, d_hat, keep);
+  const std::string broken = broken_promise(asked, calls, what.d_hat, what.keep);
   if (broken.empty()) return;
-  INFO(to_text(options) << ", d_hat " << d_hat << ", keep " << keep << ", exact " << first.toi_lo << " "
+  INFO(to_text(options) << ", d_hat " << what.d_hat << ", keep " << what.keep << ", points " << what.points
+                        << ", thick " << what.thickness.size() << ", exact " << first.toi_lo << " "
                         << first.toi_hi);
   FAIL_CHECK(broken);
 }
@@ -48,12 +58,13 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
   Counts counts;
   for (int i = 0; i < count; ++i) {
     const StepScene scene = make(random);
-    const Options options = random_options(scene, random);
+    Options options = random_options(scene, random);
+    More more{some_d_hat(scene, random), kKeep, scenes::coin(random), {}};
+    if (scenes::coin(random)) more.keep = scenes::coin(random) ? 0 : scenes::uniform(random, 0, 0.99);
+    if (scenes::integer(random, 0, 7) == 0 && options.norm == Norm::euclidean)
+      options.min_separation = 0, more.thickness = random_thickness(scene, random);
     INFO("scene " << i);
-    const double keep = scenes::coin(random)   ? kKeep
-                        : scenes::coin(random) ? 0
-                                               : scenes::uniform(random, 0, 0.99);
-    check_scene(scene, options, some_d_hat(scene, random), keep, counts);
+    check_scene(scene, options, more, counts);
   }
   return counts;
 }
@@ -80,4 +91,9 @@ TEST_CASE("no step of pairs of any family in one scene is late, whatever is aske
 TEST_CASE("no step of tetrahedra that meet is late, whatever is asked", "[property][oracle]") {
   const Counts c = check_scenes(oracle::fuzz(25), 4, tetrahedra);
   CHECK(10 * c.contacts > 2 * c.scenes);
+}
+
+TEST_CASE("no step of a crowded scene is late, whatever is asked", "[property][oracle]") {
+  const Counts c = check_scenes(oracle::fuzz(20), 5, crowded_scene);
+  CHECK(10 * c.contacts > 5 * c.scenes);
 }
