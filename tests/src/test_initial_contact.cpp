@@ -12,9 +12,10 @@ VertexFaceQuery moving_vertex(Point from, Point to) {
   const Point f0{0, 0, 0}, f1{1, 0, 0}, f2{0, 1, 0};
   return {{from, f0, f1, f2}, {to, f0, f1, f2}};
 }
-Outcome outcome(Point from, Point to, double d = 0) {
+Outcome outcome(Point from, Point to, double d = 0, bool may_pass_through = false) {
   Options options;
   options.min_separation = d;
+  options.touching_may_pass_through = may_pass_through;
   return vertex_face_ccd(moving_vertex(from, to), options).outcome;
 }
 EdgeEdgeQuery crossing_edges(double height_t0, double height_t1) {
@@ -38,13 +39,20 @@ StepResult step_of(double from, double to, double d = 0) {
 
 }  // namespace
 
-TEST_CASE("a touching pair that parts is told from one that presses", "[unit]") {
-  CHECK(outcome({.25, .25, 0}, {.25, .25, 1}) == Outcome::initial_separating);
-  CHECK(outcome({.25, .25, 0}, {.25, .25, 0}) == Outcome::initial_separating);  // at rest
-  CHECK(outcome({0, 0, 0}, {-1, -1, .1}) == Outcome::initial_separating);       // vertex on vertex
-  CHECK(outcome({.5, 0, 0}, {.5, -1, 0}) == Outcome::initial_separating);       // vertex on side
-  CHECK(outcome({.5, 0, 0}, {.5, .2, 0}) == Outcome::initial_contact);  // slides into the face's plane
-  CHECK(edge_edge_ccd(crossing_edges(0, 1)).outcome == Outcome::initial_separating);
+TEST_CASE("a touching pair blocks the step, and where it may part is told from one that presses", "[unit]") {
+  const auto check = [](Point from, Point to, Outcome allowed) {
+    CHECK(outcome(from, to) == Outcome::initial_contact);
+    CHECK(outcome(from, to, 0, true) == allowed);
+  };
+  check({.25, .25, 0}, {.25, .25, 1}, Outcome::initial_separating);
+  check({.25, .25, 0}, {.25, .25, 0}, Outcome::initial_separating);  // at rest
+  check({0, 0, 0}, {-1, -1, .1}, Outcome::initial_separating);       // vertex on vertex
+  check({.5, 0, 0}, {.5, -1, 0}, Outcome::initial_separating);       // vertex on side
+  check({.5, 0, 0}, {.5, .2, 0}, Outcome::initial_contact);          // slides into the face's plane
+  Options part;
+  part.touching_may_pass_through = true;
+  CHECK(edge_edge_ccd(crossing_edges(0, 1)).outcome == Outcome::initial_contact);
+  CHECK(edge_edge_ccd(crossing_edges(0, 1), part).outcome == Outcome::initial_separating);
 }
 
 TEST_CASE("a pair apart by less than rounding can show is decided exactly", "[unit]") {
@@ -83,7 +91,10 @@ TEST_CASE("a pair that parts and is met again later limits the step there", "[un
   F << 0, 1, 2, 3, 4, 5;
   Eigen::MatrixXd x1 = x0;
   x1(6, 2) = 2;
-  const StepResult r = compute_collision_free_stepsize(Mesh(x0, F), x0, x1);
+  CHECK(compute_collision_free_stepsize(Mesh(x0, F), x0, x1).outcome == Outcome::initial_contact);
+  Options part;
+  part.touching_may_pass_through = true;
+  const StepResult r = compute_collision_free_stepsize(Mesh(x0, F), x0, x1, part);
   CHECK(r.outcome == Outcome::contact);
   CHECK(r.step < 0.5);
   CHECK(r.step > 0.499);
