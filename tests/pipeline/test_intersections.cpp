@@ -135,6 +135,21 @@ TEST_CASE("intersections keep to the rules of the mesh", "[oracle][property]") {
   CHECK((left > 50 && kept > 50));
 }
 
+// The face's three corners have what lets it meet the edge one each, so that no two of them do.
+TEST_CASE("an edge may meet a face and neither its edges nor its vertices", "[unit]") {
+  Eigen::MatrixXd x(5, 3);
+  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1;
+  const Eigen::MatrixXi wire = Eigen::RowVector2i(3, 4), F = Eigen::RowVector3i(0, 1, 2);
+  Mesh mesh(5, complete_edges(wire, F), F);
+  mesh.set_groups({1, 0, 0, 1, 0}, {0, 1, 0, 0, 1});
+  mesh.set_static({true, true, false, true, true});
+  CHECK((mesh.plan().edge_edge.may_meet() == 0 && mesh.plan().vertex_face.may_meet() == 0));
+  for (const Options& o : all_ways()) {
+    CHECK(intersections(mesh, x, o).count(IntersectionKind::crossing) == 1);
+    CHECK(has_intersections(mesh, x, o));
+  }
+}
+
 TEST_CASE("with welds, vertices at one place count as one", "[oracle][property]") {
   Random random(82 + oracle::fuzz_seed());
   std::size_t left = 0, kept = 0;
