@@ -112,7 +112,8 @@ std::string broken_by(const CallStep& step, const Query& motion, double d, oracl
   if (!(s >= 0 && s <= 1)) return ++counts.bad, "a step outside [0, 1]";
   const bool room = oracle::compare_distance(motion, 0, d + 2 * rounding) > 0;
   counts.stopped += s == 0;
-  if (s == 0 && room) return ++counts.stuck, "stuck, though its gap is more than twice the rounding";
+  if (s == 0 && room && !step.blind())
+    return ++counts.stuck, "stuck, though its gap is more than twice the rounding";
   if (s == 0) return {};
   x = oracle::stored(how, motion, s);
   const std::string broken = oracle::broken_on_the_way(motion, s, x);
