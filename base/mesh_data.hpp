@@ -26,7 +26,7 @@ struct MeshData {
   std::vector<bool> rigid, no_self;                                    // a body
   std::vector<std::uint32_t> group, mask;                              // a vertex
   std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;  // smaller id first, sorted, each once
-  std::array<std::vector<std::array<int, 2>>, 3> excluded_pairs;       // of a kind; ids as in IdPair, the same
+  std::array<std::vector<std::array<int, 2>>, 3> excluded_pairs;  // of a kind; ids as in IdPair, the same
 
   std::vector<int> full_vertex;  // a vertex: its id in the full mesh; empty: its own
   int num_full_vertices = 0;

@@ -152,8 +152,9 @@ bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b) {
 
 bool excluded(const MeshData& mesh, PairKind kind, int a, int b) {
   const auto& pairs = mesh.excluded_pairs[std::size_t(kind)];
-  const std::array<int, 2> ids = kind == PairKind::edge_edge ? std::array<int, 2>{std::min(a, b), std::max(a, b)}
-                                                             : std::array<int, 2>{a, b};
+  const std::array<int, 2> ids = kind == PairKind::edge_edge
+                                     ? std::array<int, 2>{std::min(a, b), std::max(a, b)}
+                                     : std::array<int, 2>{a, b};
   if (std::binary_search(pairs.begin(), pairs.end(), ids)) return true;
   const auto first = primitive_vertices(mesh, first_primitive(kind), a);
   const auto second = primitive_vertices(mesh, second_primitive(kind), b);

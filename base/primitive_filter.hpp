@@ -17,7 +17,7 @@ struct PrimitiveKey {
   std::uint32_t group, mask;
 };
 inline constexpr int kFixedFlag = int(0x80000000u);  // all vertices static: the sign bit
-inline constexpr int kExcludedFlag = 1;              // named in an excluded pair, itself, by a vertex or its body
+inline constexpr int kExcludedFlag = 1;  // named in an excluded pair, itself, by a vertex or its body
 
 struct PrimitiveFilter {
   PairPlan plan;

@@ -28,12 +28,11 @@ class Bvh final : public BroadPhase {
         all ? IdList{nullptr, std::size_t(mesh.num_vertices)} : listed(filter->moving_vertices));
     parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k)
-        trees_[k].emplace(
-            mesh, kPrimitives[k],
-            !is_wanted(input, kPrimitives[k]) ? IdList{nullptr, 0}
-            : all                             ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])}
-                                              : listed(filter->moving[k]),
-            order_, alone);
+        trees_[k].emplace(mesh, kPrimitives[k],
+                          !is_wanted(input, kPrimitives[k]) ? IdList{nullptr, 0}
+                          : all ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])}
+                                : listed(filter->moving[k]),
+                          order_, alone);
     });
     roughness_ = roughness(order_, input.motion);
     fit(input, map);

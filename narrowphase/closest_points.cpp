@@ -166,7 +166,7 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const 
   const Differences<DoubleDouble> precise = motion.at(t);
   Differences<double> d{kind, rounded(precise.q), rounded(precise.a), rounded(precise.b), {}};
   for (int k = 0; k < d.corners(); ++k) d.corner[k] = rounded(precise.corner[k]);
-  const double blur = t == 0 ? 0 : PreciseMotion::kBlur;
+  const double blur = motion.blur(t);
   ClosestPoints r;
   Bounds bounds;
   if (!look(d, blur, r, bounds)) look_closer(precise, largest_corner(d), blur, r, bounds);

@@ -51,9 +51,9 @@ VecOf<DoubleDouble> motion_of(const PreciseMotion& m, const double (&weights)[4]
 // A pair whose gap does not give its normal: it touches, or is at a boundary with next to no gap.
 class Touching {
  public:
-  Touching(const ExactPair& pair, const Differences<DoubleDouble>& d, const ClosestPoints& near,
+  Touching(const ExactPair& pair, const Differences<DoubleDouble>& d, const ClosestPoints& near, double size,
            const Vec& past, double t, bool odd_axes)
-      : pair_(pair), d_(d), near_(near), plane_(d), past_(past), t_(t), odd_axes_(odd_axes) {
+      : pair_(pair), d_(d), near_(near), plane_(d), size_(size), past_(past), t_(t), odd_axes_(odd_axes) {
     if (plane_.resolved) across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
   }
 
@@ -82,9 +82,10 @@ class Touching {
   bool came_along(const Vec& n) const { return dot(n, past_) > kNothing * length(past_); }
   bool came_from(const Vec& n) const { return came_along(n) || came_along(-1 * n); }
   int side_here() const {
-    const double here = dot(d_.q, plane_.normal()).hi;
-    if (near_.lower > 0 && std::fabs(here) > 0x1p-90) return (here > 0) != plane_.swapped ? 1 : -1;
-    return side();
+    const VecOf<DoubleDouble> n = plane_.normal();
+    const double here = dot(d_.q, n).hi;
+    const bool told = std::fabs(here) > 0x1p-90 * size_ * length(rounded(n));
+    return !told ? side() : (here > 0) != plane_.swapped ? 1 : -1;
   }
   // The winding decides on either side of a face, or between edges, that nothing moves from.
   Vec wound() const { return odd_axes_ ? -1 * across_ : across_; }
@@ -104,6 +105,7 @@ class Touching {
   const Differences<DoubleDouble>& d_;
   const ClosestPoints& near_;
   const Plane<DoubleDouble> plane_;
+  const double size_;
   const Vec past_;
   const double t_;
   const bool odd_axes_;
@@ -151,14 +153,14 @@ bool wide_frame(const ExactPair& pair, double t, Frame& f) {
 Frame precise_frame(const ExactPair& pair, double t, bool parting, bool odd_axes) {
   const PreciseMotion precise(pair.kind, pair.t0, pair.t1);
   const Differences<DoubleDouble> d = precise.at(t);
-  Frame f{precise_closest_points(d, t == 0 ? 0 : PreciseMotion::kBlur), {}, 0, precise.unit, false};
+  Frame f{precise_closest_points(d, precise.blur(t)), {}, 0, precise.unit, false};
   f.normal = vec(f.near.direction);
   const VecOf<DoubleDouble> moved = motion_of(precise, f.near.weights);
   const bool inside =
       f.near.square && std::none_of(f.near.weights, f.near.weights + 4, [](double w) { return w == 0; });
   if (!(f.near.lower > (inside ? 0 : kResolved * precise.size))) {
     const Vec past = rounded((parting ? 1.0 : -1.0) * moved);
-    const Touching touching(pair, d, f.near, past, t, odd_axes);
+    const Touching touching(pair, d, f.near, precise.size, past, t, odd_axes);
     const int side = inside ? touching.side() : 0;
     f.normal = inside ? touching.inside(side) : touching.at_boundary();
     f.degenerate = side == 0;

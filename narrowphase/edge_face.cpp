@@ -20,16 +20,18 @@ int certain_sign(double x, double bound) {
   return x > 0 ? 1 : -1;
 }
 
-// Bound on the error of fl((a x b).c), where each of a, b, c is a rounded difference of points and no coordinate of theirs
-// is larger than A, B, C. Relative to the exact terms |a_i b_j c_k| a product carries 8 roundings at most: three
-// differences, three products and sums, two more sums. There are six, so the error is below 6 ((1 + u)^8 - 1) (1 + u)^3 A B C
-// < 49u A B C; 2^-46 leaves room for the rounding here. An inner product that underflows adds 2^-1075, six of them times C
-// 2^-1072 C; the outer ones add 2^-1073. Where anything overflows, the result is not finite.
+// Bound on the error of fl((a x b).c), where each of a, b, c is a rounded difference of points and no
+// coordinate of theirs is larger than A, B, C. Relative to the exact terms |a_i b_j c_k| a product carries 8
+// roundings at most: three differences, three products and sums, two more sums. There are six, so the error
+// is below 6 ((1 + u)^8 - 1) (1 + u)^3 A B C < 49u A B C; 2^-46 leaves room for the rounding here. An inner
+// product that underflows adds 2^-1075, six of them times C 2^-1072 C; the outer ones add 2^-1073. Where
+// anything overflows, the result is not finite.
 double volume_bound(double A, double B, double C) { return 0x1p-46 * ((A * B + 0x1p-1000) * C) + 0x1p-1070; }
 
-// Whether a plane of normal m (any doubles) has the points p all on one side and the points q on the other: m.(p_i - q_j) > 0,
-// or < 0, for all. Relative to |m_k (p - q)_k| a term carries 4 roundings: the error is below 3 ((1 + u)^4 - 1) |m| |p - q| <
-// 13u |m| |p - q| with the largest coordinates, and 3 2^-1075 where products underflow.
+// Whether a plane of normal m (any doubles) has the points p all on one side and the points q on the other:
+// m.(p_i - q_j) > 0, or < 0, for all. Relative to |m_k (p - q)_k| a term carries 4 roundings: the error is
+// below 3 ((1 + u)^4 - 1) |m| |p - q| < 13u |m| |p - q| with the largest coordinates, and 3 2^-1075 where
+// products underflow.
 bool separates(const Vec& m, const Vec* p, int p_count, const Vec* q, int q_count) {
   const double size = largest(m);
   int side = 0;
@@ -50,7 +52,8 @@ struct Quick {
 };
 constexpr Quick kOpen{false, EdgeFace::apart}, kApart{true, EdgeFace::apart};
 
-// The ends are on different sides of the plane: the line meets the face where it passes its three sides on one side.
+// The ends are on different sides of the plane: the line meets the face where it passes its three sides on
+// one side.
 Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   const Vec d = e[1] - e[0], r[3] = {f[0] - e[0], f[1] - e[0], f[2] - e[0]};
   const double R = std::max(std::max(largest(r[0]), largest(r[1])), largest(r[2]));
@@ -64,7 +67,8 @@ Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   return positive == 3 || negative == 3 ? Quick{true, EdgeFace::crossing} : kOpen;
 }
 
-// An edge close to the plane of the face: apart within it, beyond a side of the face or with the face beyond its line.
+// An edge close to the plane of the face: apart within it, beyond a side of the face or with the face beyond
+// its line.
 bool apart_in_plane(const Vec& n, const Vec (&e)[2], const Vec (&f)[3]) {
   for (int i = 0; i < 3; ++i)
     if (separates(cross(n, f[(i + 1) % 3] - f[i]), e, 2, f, 3)) return true;

@@ -18,9 +18,12 @@ class ExactEdgeFace {
 
   ExactEdgeFace(const Point (&e)[2], const Point (&f)[3]) : e_(e), f_(f) {}
 
-  std::array<M, 3> normal() const { return exact_cross<M>(difference(f_[1], f_[0]), difference(f_[2], f_[0])); }
+  std::array<M, 3> normal() const {
+    return exact_cross<M>(difference(f_[1], f_[0]), difference(f_[2], f_[0]));
+  }
 
-  // The face has area. A line that is not in its plane meets it where no two of its sides are passed on different sides.
+  // The face has area. A line that is not in its plane meets it where no two of its sides are passed on
+  // different sides.
   EdgeFace decide(const std::array<M, 3>& n) const {
     const int s0 = side(n, e_[0]), s1 = side(n, e_[1]);
     if (s0 == s1) return s0 == 0 ? coplanar(n) : EdgeFace::apart;
@@ -35,8 +38,8 @@ class ExactEdgeFace {
     return on || s0 == 0 || s1 == 0 ? EdgeFace::touching : EdgeFace::crossing;
   }
 
-  // The face is the segment from its corner `first` to `last`. overlapping: all are on one line, and what they share there
-  // is left open.
+  // The face is the segment from its corner `first` to `last`. overlapping: all are on one line, and what
+  // they share there is left open.
   static EdgeFace of_segments(const Point& e0, const Point& e1, const Point& first, const Point& last) {
     const Point u = difference(e1, e0), v = difference(last, first), w = difference(first, e0);
     const auto m = exact_cross<M>(u, v), s = exact_cross<M>(w, v), t = exact_cross<M>(w, u);
@@ -57,10 +60,12 @@ class ExactEdgeFace {
   static T volume(const std::array<M, 3>& area, const Point& x) {
     return T(area[0]) * T(x[0]) + T(area[1]) * T(x[1]) + T(area[2]) * T(x[2]);
   }
-  int side(const std::array<M, 3>& n, const Point& p) const { return sign_of(volume(n, difference(p, f_[0]))); }
+  int side(const std::array<M, 3>& n, const Point& p) const {
+    return sign_of(volume(n, difference(p, f_[0])));
+  }
 
-  // The part of the edge, from 0 to 1, that is on the inner side of all three sides of the face, in the projection along
-  // an axis on which the normal is not 0.
+  // The part of the edge, from 0 to 1, that is on the inner side of all three sides of the face, in the
+  // projection along an axis on which the normal is not 0.
   EdgeFace coplanar(const std::array<M, 3>& n) const {
     std::size_t k = 0;
     while (sign_of(n[k]) == 0) ++k;

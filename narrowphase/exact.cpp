@@ -67,7 +67,8 @@ Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerP
 
 // Coordinates of up to 61 bits in machine words; first with a cubic of 128 bits where that is enough.
 Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
-  const auto t0 = points_on_grid<std::int64_t>(pair.t0, grid.last), t1 = points_on_grid<std::int64_t>(pair.t1, grid.last);
+  const auto t0 = points_on_grid<std::int64_t>(pair.t0, grid.last),
+             t1 = points_on_grid<std::int64_t>(pair.t1, grid.last);
   const int shallow = depth_for(grid.bits(), 128);
   if (shallow >= 4) {
     const Decided r = search<8, std::int64_t, Int128, Int128>(pair, t0, t1, grid.bits(), shallow, want_time);
@@ -79,7 +80,8 @@ Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
 
 // Coordinates of up to 120 bits in two limbs.
 Decided search_two_limbs(const ExactPair& pair, const Grid& grid, bool want_time) {
-  const auto t0 = points_on_grid<Wide<2>>(pair.t0, grid.last), t1 = points_on_grid<Wide<2>>(pair.t1, grid.last);
+  const auto t0 = points_on_grid<Wide<2>>(pair.t0, grid.last),
+             t1 = points_on_grid<Wide<2>>(pair.t1, grid.last);
   return search<12, Wide<2>, Wide<4>, Wide<7>>(pair, t0, t1, grid.bits(), depth_for(grid.bits(), 64 * 7),
                                                want_time);
 }

@@ -44,7 +44,9 @@ struct Placed {
 };
 template <int N>
 struct Placed<Wide<N>> {
-  static Wide<N> at(std::uint64_t mantissa, int shift) { return shifted(Wide<N>(std::int64_t(mantissa)), shift); }
+  static Wide<N> at(std::uint64_t mantissa, int shift) {
+    return shifted(Wide<N>(std::int64_t(mantissa)), shift);
+  }
 };
 
 template <class C>

@@ -26,10 +26,10 @@ struct PreciseMotion {
   Differences<DoubleDouble> start, end{};  // none has corners where size is 0
 
   PreciseMotion(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4]);
-  // Mixing q, a and b and taking their sums errs by less than 100 u^2 of the edges at both ends, which are
-  // below 7.
   Differences<DoubleDouble> at(double t) const;
-  static constexpr double kBlur = 0x1p-96;
+  // What these are off by. Mixing q, a and b and taking their sums errs by less than 100 u^2 of the edges at
+  // both ends, which are below twice the size.
+  double blur(double t) const { return t == 0 ? 0 : 0x1p-97 * size; }
 };
 
 }  // namespace onset

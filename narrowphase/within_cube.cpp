@@ -10,8 +10,9 @@ namespace {
 
 double largest(const Vec& a) { return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2])); }
 
-// The differences of the two primitives: a triangle or a parallelogram, and the cube of half width d, scaled so that none is
-// above 4 and differences do not overflow. What underflows is off by 2^-1074, far less than rounding counts for here.
+// The differences of the two primitives: a triangle or a parallelogram, and the cube of half width d, scaled
+// so that none is above 4 and differences do not overflow. What underflows is off by 2^-1074, far less than
+// rounding counts for here.
 struct Differences {
   Vec corner[4];
   int count;
@@ -27,12 +28,13 @@ struct Differences {
     if (kind == PairKind::vertex_face)
       for (int i = 0; i < 3; ++i) corner[i] = at(0) - at(i + 1);
     else
-      corner[0] = at(0) - at(2), corner[1] = at(0) - at(3), corner[2] = at(1) - at(3), corner[3] = at(1) - at(2);
+      corner[0] = at(0) - at(2), corner[1] = at(0) - at(3), corner[2] = at(1) - at(3),
+      corner[3] = at(1) - at(2);
     d = half_width * scale;
   }
 
-  // Whether the polygon is beyond the cube in direction m (any doubles), which reaches d |m|_1. A term of the product
-  // carries 4 roundings, the reach 4: below 13u |m| |corner| + 5u d |m|_1 in the largest coordinates.
+  // Whether the polygon is beyond the cube in direction m (any doubles), which reaches d |m|_1. A term of the
+  // product carries 4 roundings, the reach 4: below 13u |m| |corner| + 5u d |m|_1 in the largest coordinates.
   bool beyond(const Vec& m) const {
     const double reach = d * (std::fabs(m[0]) + std::fabs(m[1]) + std::fabs(m[2]));
     double least = INFINITY, most = -INFINITY, farthest = 0;

@@ -13,7 +13,8 @@
 namespace onset {
 namespace {
 
-// Of each vertex: whether it has an edge, a face or is a point, and whether one of these is not static as a whole.
+// Of each vertex: whether it has an edge, a face or is a point, and whether one of these is not static as a
+// whole.
 struct Use {
   std::vector<bool> used, meets;
 
@@ -30,7 +31,8 @@ struct Use {
 };
 
 bool joined(const MeshData& mesh, int v, int w) {
-  return std::binary_search(mesh.excluded_vertices.begin(), mesh.excluded_vertices.end(), std::array<int, 2>{v, w});
+  return std::binary_search(mesh.excluded_vertices.begin(), mesh.excluded_vertices.end(),
+                            std::array<int, 2>{v, w});
 }
 
 // Whether nothing but their being told apart lets what is at v and w meet.
@@ -46,7 +48,8 @@ bool never_meet(const MeshData& mesh, const Use& use, int v, int w) {
 void list_copies(const MeshData& mesh, const Use& use, const Positions& x, StartReport& report) {
   if (mesh.weld) return;
   for (std::vector<int> here : shared_places(x)) {
-    here.erase(std::remove_if(here.begin(), here.end(), [&](int v) { return !use.used[std::size_t(v)]; }), here.end());
+    here.erase(std::remove_if(here.begin(), here.end(), [&](int v) { return !use.used[std::size_t(v)]; }),
+               here.end());
     for (std::size_t j = 1; j < here.size(); ++j)
       for (std::size_t i = 0; i < j; ++i)
         if (!joined(mesh, here[i], here[j]) && !never_meet(mesh, use, here[i], here[j])) {
@@ -60,11 +63,14 @@ void list_copies(const MeshData& mesh, const Use& use, const Positions& x, Start
 void list_faces(const MeshData& mesh, const Motion& motion, StartReport& report) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto& [a, b, c] = mesh.faces[f];
-    if (exactly_collinear(motion.t0(a), motion.t0(b), motion.t0(c))) report.faces_without_area.push_back(int(f));
+    if (exactly_collinear(motion.t0(a), motion.t0(b), motion.t0(c)))
+      report.faces_without_area.push_back(int(f));
   }
 }
 
-std::size_t most(const Options& options, std::size_t bytes) { return std::size_t(options.memory_limit) / bytes; }
+std::size_t most(const Options& options, std::size_t bytes) {
+  return std::size_t(options.memory_limit) / bytes;
+}
 
 // Lists of pairs, one after the other: of more than memory_limit holds, none.
 void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& rest, StartReport& report) {

@@ -37,7 +37,8 @@ std::vector<std::array<int, 2>> duplicate_vertices(const Positions& x) {
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
     for (int a = 0; a < 3; ++a)
       if (!std::isfinite(x(v, a)))
-        throw std::invalid_argument("x row " + std::to_string(v) + ": " + std::to_string(x(v, a)) + " is not finite");
+        throw std::invalid_argument("x row " + std::to_string(v) + ": " + std::to_string(x(v, a)) +
+                                    " is not finite");
   std::vector<std::array<int, 2>> pairs;
   for (const std::vector<int>& here : shared_places(x))
     for (std::size_t j = 1; j < here.size(); ++j)

@@ -20,8 +20,8 @@ bool in_order(const Edge& e, const Edge& f) { return e[1] != f[1] ? e[1] < f[1] 
 int id_in(const char* what, const Indices& ids, std::ptrdiff_t row, std::ptrdiff_t column) {
   const long long v = ids(row, column);
   if (v < 0 || v > std::numeric_limits<int>::max())
-    throw std::invalid_argument(std::string(what) + " row " + std::to_string(row) + ": vertex " + std::to_string(v) +
-                                " is out of range");
+    throw std::invalid_argument(std::string(what) + " row " + std::to_string(row) + ": vertex " +
+                                std::to_string(v) + " is out of range");
   return int(v);
 }
 
@@ -36,7 +36,8 @@ std::vector<Edge> missing(std::vector<Edge> present, const std::vector<Edge>& wa
   for (Edge& e : present) e = upward(e[0], e[1]);
   sort_once(present);
   std::vector<Edge> rest;
-  std::set_difference(wanted.begin(), wanted.end(), present.begin(), present.end(), std::back_inserter(rest), in_order);
+  std::set_difference(wanted.begin(), wanted.end(), present.begin(), present.end(), std::back_inserter(rest),
+                      in_order);
   return rest;
 }
 
@@ -76,10 +77,11 @@ void require_edges_of_faces(const std::vector<Edge>& edges, const std::vector<st
     for (std::size_t c = 0; c < 3; ++c) {
       const Edge e = upward(faces[r][c], faces[r][(c + 1) % 3]);
       if (std::binary_search(lost.begin(), lost.end(), e, in_order))
-        throw std::invalid_argument("face row " + std::to_string(r) + ": its edge between vertices " + std::to_string(e[0]) +
-                                    " and " + std::to_string(e[1]) +
-                                    " is not among the edges; pass onset::complete_edges(edges, faces), or no edges to have "
-                                    "those of the faces");
+        throw std::invalid_argument(
+            "face row " + std::to_string(r) + ": its edge between vertices " + std::to_string(e[0]) +
+            " and " + std::to_string(e[1]) +
+            " is not among the edges; pass onset::complete_edges(edges, faces), or no edges to have "
+            "those of the faces");
     }
 }
 

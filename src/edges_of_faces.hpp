@@ -6,7 +6,9 @@
 
 namespace onset {
 
-// Throws std::invalid_argument naming the first face with an edge that `edges` lacks, and that edge. All ids are valid.
-void require_edges_of_faces(const std::vector<std::array<int, 2>>& edges, const std::vector<std::array<int, 3>>& faces);
+// Throws std::invalid_argument naming the first face with an edge that `edges` lacks, and that edge. All ids
+// are valid.
+void require_edges_of_faces(const std::vector<std::array<int, 2>>& edges,
+                            const std::vector<std::array<int, 3>>& faces);
 
 }  // namespace onset

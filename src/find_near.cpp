@@ -31,7 +31,8 @@ class Near {
       for (int a = 0; a < 3; ++a) x_[std::size_t(4 * v + a)] = motion.t0(v)[a];
   }
 
-  // find_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as much.
+  // find_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as
+  // much.
   void look(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     for (const ClosePair& p : find_close(Batch(kind, pairs, count), {mesh_, x_.data(), 0, 0, options_})) {
       const int *v = p.vertices.data(), side = kind == PairKind::vertex_face ? 1 : 2;
@@ -59,14 +60,15 @@ class Near {
 
 }  // namespace
 
-Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most, Budget& budget) {
+Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most,
+                             Budget& budget) {
   const Near near(mesh, rest.motion, options);
-  auto all = gather<NearPair>(
-      *rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
-      [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) {
-        near.look(kind, pairs, count, found);
-      });
-  const auto order = [](const NearPair& p) { return std::array<int, 3>{int(p.pair.kind), p.pair.a, p.pair.b}; };
+  auto all = gather<NearPair>(*rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+                              [&](PairKind kind, const IdPair* pairs, std::size_t count,
+                                  std::vector<NearPair>& found) { near.look(kind, pairs, count, found); });
+  const auto order = [](const NearPair& p) {
+    return std::array<int, 3>{int(p.pair.kind), p.pair.a, p.pair.b};
+  };
   parallel_sort(all.found.begin(), all.found.end(),
                 [&](const NearPair& p, const NearPair& q) { return order(p) < order(q); });
   return all;

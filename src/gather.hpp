@@ -1,4 +1,5 @@
-// All pairs of a source looked at in parallel, and what is found among them, within a budget of time and memory.
+// All pairs of a source looked at in parallel, and what is found among them, within a budget of time and
+// memory.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +20,11 @@ struct Gathered {
   bool too_many = false;     // more than were to be kept: `found` is empty, and not all pairs were looked at
 };
 
-// look(kind, pairs, count, found) appends to `found`, from any thread. Keeps `most` at most; a spent budget ends it early,
-// with what was found until then.
+// look(kind, pairs, count, found) appends to `found`, from any thread. Keeps `most` at most; a spent budget
+// ends it early, with what was found until then.
 template <class Found, class Look>
-Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kinds, std::size_t most, Budget& budget,
-                       const Look& look) {
+Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kinds, std::size_t most,
+                       Budget& budget, const Look& look) {
   constexpr std::size_t kBlocksATask = 4;
   struct Task {
     PairKind kind;

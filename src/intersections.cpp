@@ -26,7 +26,8 @@ IntersectionKind kind_of(EdgeFace found) {
 void look(const MeshData& mesh, const Motion& motion, IdPair ids, std::vector<Intersection>& found) {
   const auto& e = mesh.edges[std::size_t(ids.a)];
   const auto& f = mesh.faces[std::size_t(ids.b)];
-  const EdgeFace answer = edge_face({{motion.t0(e[0]), motion.t0(e[1])}, {motion.t0(f[0]), motion.t0(f[1]), motion.t0(f[2])}});
+  const EdgeFace answer =
+      edge_face({{motion.t0(e[0]), motion.t0(e[1])}, {motion.t0(f[0]), motion.t0(f[1]), motion.t0(f[2])}});
   if (answer == EdgeFace::apart) return;
   if (mesh.weld && share_place(motion, e.data(), e.data() + 2, f.data(), f.data() + 3)) return;
   found.push_back({ids.a, ids.b, kind_of(answer), {e[0], e[1], f[0], f[1], f[2]}});
@@ -54,7 +55,8 @@ Intersections find(const Mesh& mesh, const Positions& x, const Options& options,
 
 }  // namespace
 
-Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, std::size_t most, Budget& budget) {
+Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, std::size_t most,
+                                          Budget& budget) {
   const MeshData& data = mesh.data();
   auto all = gather<Intersection>(
       *rest.broad, {kEdgeFace}, most, budget,

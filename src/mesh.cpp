@@ -279,16 +279,16 @@ void Mesh::set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs) {
 }
 
 void Mesh::set_excluded_pairs(const std::vector<Pair>& pairs) {
-  NamedPairs named("excluded pairs", *data_);
+  const std::vector<PairKind> kinds{PairKind::vertex_face, PairKind::edge_edge};
+  NamedPairs named("excluded pairs", *data_, kinds);
   for (const Pair& p : pairs) named.add(p.kind, p.a, p.b);
   change([&](MeshData& data) {
-    for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
-      data.excluded_pairs[std::size_t(kind)] = named.of(kind);
+    for (const PairKind kind : kinds) data.excluded_pairs[std::size_t(kind)] = named.of(kind);
   });
 }
 
 void Mesh::set_excluded_intersections(const std::vector<Intersection>& pairs) {
-  NamedPairs named("excluded intersections", *data_);
+  NamedPairs named("excluded intersections", *data_, {kEdgeFace});
   for (const Intersection& p : pairs) named.add(kEdgeFace, p.edge, p.face);
   change([&](MeshData& data) { data.excluded_pairs[std::size_t(kEdgeFace)] = named.of(kEdgeFace); });
 }

@@ -11,7 +11,8 @@ void NamedPairs::reject(const std::string& why) const {
 }
 
 void NamedPairs::check_id(Primitive kind, int id) const {
-  static constexpr const char* kNames[][2] = {{"vertex ", " vertices"}, {"edge ", " edges"}, {"face ", " faces"}};
+  static constexpr const char* kNames[][2] = {
+      {"vertex ", " vertices"}, {"edge ", " edges"}, {"face ", " faces"}};
   const char* const(&name)[2] = kNames[std::size_t(kind)];
   const std::size_t count = primitive_count(mesh_, kind);
   if (id < 0 || std::size_t(id) >= count)
@@ -19,7 +20,8 @@ void NamedPairs::check_id(Primitive kind, int id) const {
 }
 
 void NamedPairs::add(PairKind kind, int a, int b) {
-  if (std::size_t(kind) >= pairs_.size()) reject("kind " + std::to_string(int(kind)) + " is no kind of pair");
+  if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end())
+    reject("kind " + std::to_string(int(kind)) + " is no kind of pair");
   check_id(first_primitive(kind), a);
   check_id(second_primitive(kind), b);
   if (kind == PairKind::edge_edge && a == b) reject("edge " + std::to_string(a) + " is repeated");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/primitive.hpp"
@@ -11,9 +12,11 @@ namespace onset {
 
 class NamedPairs {
  public:
-  NamedPairs(const char* what, const MeshData& mesh) : what_(what), mesh_(mesh) {}
+  NamedPairs(const char* what, const MeshData& mesh, std::vector<PairKind> kinds)
+      : what_(what), mesh_(mesh), kinds_(std::move(kinds)) {}
 
-  // The next row. Throws std::invalid_argument naming it for an id out of range, or an edge and itself.
+  // The next row. Throws std::invalid_argument naming it for another kind, an id out of range, or an edge and
+  // itself.
   void add(PairKind kind, int a, int b);
   // Sorted, each once; two edges with the smaller id first.
   std::vector<std::array<int, 2>> of(PairKind kind) const;
@@ -24,6 +27,7 @@ class NamedPairs {
 
   const char* what_;
   const MeshData& mesh_;
+  std::vector<PairKind> kinds_;
   std::size_t row_ = 0;
   std::array<std::vector<std::array<int, 2>>, 3> pairs_;
 };

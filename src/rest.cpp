@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "src/scene.hpp"
-
 namespace onset {
 
 // Leaves the rows of static vertices to the next call on the mesh.
@@ -13,15 +11,19 @@ Rest::~Rest() {
 
 void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& budget) {
   if (motion.status != Outcome::free || budget.spent()) return;
-  BroadPhaseInput input = broad_phase_input(mesh.data(), motion, options, 0, 1, BoxTest::swept);
-  if (pairs == Pairs::edge_face) {
-    input.edges_against_faces = true;
-    input.inflation = input.fixed_inflation = 0;
-  }
+  const bool edge_face = pairs == Pairs::edge_face;
+  BroadPhaseInput input{mesh.data(), motion};
+  // Half of the separation, rounded up; half of the smallest number is not 0.
+  if (!edge_face && options.min_separation > 0)
+    input.inflation = 0.5 * options.min_separation * (1 + 0x1p-50) + 0x1p-1074;
+  input.test = BoxTest::swept;
+  input.kernel = options.kernel;
+  input.edges_against_faces = edge_face;
   broad = make_broad_phase(options.broad_phase, input);
 }
 
-bool share_place(const Motion& motion, const int* first, const int* first_end, const int* second, const int* second_end) {
+bool share_place(const Motion& motion, const int* first, const int* first_end, const int* second,
+                 const int* second_end) {
   for (; first != first_end; ++first)
     for (const int* other = second; other != second_end; ++other) {
       const double *x = motion.t0(*first), *y = motion.t0(*other);

@@ -20,7 +20,8 @@ struct Rest {
   Rest& operator=(const Rest&) = delete;
   ~Rest();
 
-  // The pairs of a step that come within Options::min_separation and their thickness, or kEdgeFace with a common point.
+  // The pairs of a step that come within Options::min_separation and their thickness, or kEdgeFace with a
+  // common point.
   enum class Pairs { within_separation, edge_face };
   void find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& budget);
 
@@ -29,7 +30,9 @@ struct Rest {
   }
 };
 
-// Whether a vertex of one side is exactly where one of the other side is: with Mesh::set_weld they count as one.
-bool share_place(const Motion& motion, const int* first, const int* first_end, const int* second, const int* second_end);
+// Whether a vertex of one side is exactly where one of the other side is: with Mesh::set_weld they count as
+// one.
+bool share_place(const Motion& motion, const int* first, const int* first_end, const int* second,
+                 const int* second_end);
 
 }  // namespace onset

@@ -9,14 +9,16 @@
 namespace onset {
 
 // Edges and faces with a common point, ordered by (edge, face); `rest` was asked to find Pairs::edge_face.
-Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, std::size_t most, Budget& budget);
+Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, std::size_t most,
+                                          Budget& budget);
 
-// Vertex-face and edge-edge pairs that touch (distance and gap 0), or are within their separation, or beyond it by no more
-// than rounding, ordered by (kind, a, b); `rest` was asked to find Pairs::within_separation.
+// Vertex-face and edge-edge pairs that touch (distance and gap 0), or are within their separation, or beyond
+// it by no more than rounding, ordered by (kind, a, b); `rest` was asked to find Pairs::within_separation.
 struct NearPair {
   ClosePair pair;
   bool touches;
 };
-Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most, Budget& budget);
+Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most,
+                             Budget& budget);
 
 }  // namespace onset

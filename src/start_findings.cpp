@@ -8,7 +8,8 @@ namespace {
 template <class Ids>
 std::string listed(const Ids& ids) {
   std::ostringstream s;
-  for (std::size_t i = 0; i < ids.size(); ++i) s << (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") << ids[i];
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    s << (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") << ids[i];
   return s.str();
 }
 
@@ -21,9 +22,10 @@ std::string vertices_of(const int* first, const int* last) {
 }
 
 std::string named(const Pair& p) {
-  const int *v = p.vertices.data();
+  const int* v = p.vertices.data();
   if (p.kind == PairKind::vertex_face)
-    return "vertex " + std::to_string(p.a) + " and face " + std::to_string(p.b) + " (" + vertices_of(v + 1, v + 4) + ")";
+    return "vertex " + std::to_string(p.a) + " and face " + std::to_string(p.b) + " (" +
+           vertices_of(v + 1, v + 4) + ")";
   const auto edge = [&](int id, const int* ends) {
     return "edge " + std::to_string(id) + " (" + vertices_of(ends, ends + (ends[0] == ends[1] ? 1 : 2)) + ")";
   };
@@ -41,17 +43,20 @@ std::string of_intersections(const StartReport& report) {
   const Intersection& p = report.intersections.front();
   const int* v = p.vertices.data();
   std::ostringstream s;
-  s << counted(report.intersections.size(), "edge-face pair intersects", "edge-face pairs intersect") << " (" << crossing
-    << " crossing), first edge " << p.edge << " (" << vertices_of(v, v + (v[0] == v[1] ? 1 : 2)) << ") and face " << p.face << " ("
-    << vertices_of(v + 2, v + 5) << "), " << to_string(p.kind)
-    << ": move them apart; to leave out those that are meant, mesh.set_excluded_intersections(report.intersections)"
+  s << counted(report.intersections.size(), "edge-face pair intersects", "edge-face pairs intersect") << " ("
+    << crossing << " crossing), first edge " << p.edge << " (" << vertices_of(v, v + (v[0] == v[1] ? 1 : 2))
+    << ") and face " << p.face << " (" << vertices_of(v + 2, v + 5) << "), " << to_string(p.kind)
+    << ": move them apart; to leave out those that are meant, "
+       "mesh.set_excluded_intersections(report.intersections)"
     << seam_hint(report);
   return s.str();
 }
 
 std::string of_touching(const StartReport& report) {
-  return counted(report.touching.size(), "pair touches", "pairs touch") + ", first " + named(report.touching.front()) +
-         ": move them apart; to leave them out, mesh.set_excluded_pairs(report.touching); to let them part where they touch "
+  return counted(report.touching.size(), "pair touches", "pairs touch") + ", first " +
+         named(report.touching.front()) +
+         ": move them apart; to leave them out, mesh.set_excluded_pairs(report.touching); to let them part "
+         "where they touch "
          "from the right side, Options::touching_may_pass_through" +
          seam_hint(report);
 }
@@ -59,16 +64,17 @@ std::string of_touching(const StartReport& report) {
 std::string of_close(const StartReport& report) {
   const ClosePair& p = report.within_separation.front();
   std::ostringstream s;
-  s << counted(report.within_separation.size(), "pair is", "pairs are") << " within the separation, first " << named(p)
-    << ", " << p.distance << " apart where " << p.separation
-    << " is to be kept: move them apart, lower Options::min_separation or mesh.set_thickness, or leave them out: "
+  s << counted(report.within_separation.size(), "pair is", "pairs are") << " within the separation, first "
+    << named(p) << ", " << p.distance << " apart where " << p.separation
+    << " is to be kept: move them apart, lower Options::min_separation or mesh.set_thickness, or leave them "
+       "out: "
        "mesh.set_excluded_pairs({report.within_separation.begin(), report.within_separation.end()})";
   return s.str();
 }
 
 std::string of_copies(const StartReport& report) {
-  return counted(report.copied_vertices.size(), "vertex is", "vertices are") + " at the place of another, first vertices " +
-         listed(report.copied_vertices.front()) +
+  return counted(report.copied_vertices.size(), "vertex is", "vertices are") +
+         " at the place of another, first vertices " + listed(report.copied_vertices.front()) +
          ": where they are the copies of a seam, mesh.set_weld(true), or "
          "mesh.set_excluded_vertices(onset::duplicate_vertices(x)); else move them apart";
 }
@@ -76,16 +82,18 @@ std::string of_copies(const StartReport& report) {
 std::string of_faces(const Mesh& mesh, const StartReport& report) {
   const int f = report.faces_without_area.front();
   const std::array<int, 3> v = mesh.face(f);
-  return counted(report.faces_without_area.size(), "face has", "faces have") + " no area, first face " + std::to_string(f) +
-         " (" + vertices_of(v.data(), v.data() + 3) +
-         "): they are taken for the segments that they are; leave these rows out of the faces of Mesh(x, edges, faces) to "
+  return counted(report.faces_without_area.size(), "face has", "faces have") + " no area, first face " +
+         std::to_string(f) + " (" + vertices_of(v.data(), v.data() + 3) +
+         "): they are taken for the segments that they are; leave these rows out of the faces of Mesh(x, "
+         "edges, faces) to "
          "keep their edges alone";
 }
 
 std::string of_unused(const StartReport& report) {
   return counted(report.unused_vertices.size(), "vertex belongs", "vertices belong") +
          " to no edge and no face, first vertex " + std::to_string(report.unused_vertices.front()) +
-         ": they meet faces only; mesh.set_points(report.unused_vertices) lets them meet edges and each other";
+         ": they meet faces only; mesh.set_points(report.unused_vertices) lets them meet edges and each "
+         "other";
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ class Server {
       words >> options.relative_tolerance;
     if (!words || threads < 1 || end < 0 || end > 1) throw app::UsageError("not understood: " + line);
     options.threads = threads;
-    return at_rest ? look_at_rest(what, end == 0 ? scene_.x_t0 : scene_.x_t1, options) : measure(what, options);
+    return at_rest ? look_at_rest(what, end == 0 ? scene_.x_t0 : scene_.x_t1, options)
+                   : measure(what, options);
   }
 
  private:

@@ -32,29 +32,30 @@ struct StartFinding {
   std::string text;
 };
 
-// All lists are in order, and the same bytes for any number of threads, kernel and broad phase. Pairs are those that the
-// mesh lets meet: what is left out of every call is named in none.
+// All lists are in order, and the same bytes for any number of threads, kernel and broad phase. Pairs are
+// those that the mesh lets meet: what is left out of every call is named in none.
 struct StartReport {
   std::vector<Intersection> intersections;  // as intersections() lists them: Mesh::set_excluded_intersections
   std::vector<Pair> touching;               // distance exactly 0, by (kind, a, b): Mesh::set_excluded_pairs
-  // 0 < distance <= separation (min_separation + thickness, in the norm asked for), or beyond that by no more than
-  // rounding, by (kind, a, b).
+  // 0 < distance <= separation (min_separation + thickness, in the norm asked for), or beyond that by no more
+  // than rounding, by (kind, a, b).
   std::vector<ClosePair> within_separation;
-  // {first vertex at a place, another one there}, by both; not what Mesh::set_weld or set_excluded_vertices joins, nor
-  // unused vertices. duplicate_vertices() gives what set_excluded_vertices takes.
+  // {first vertex at a place, another one there}, by both; not what Mesh::set_weld or set_excluded_vertices
+  // joins, nor unused vertices. duplicate_vertices() gives what set_excluded_vertices takes.
   std::vector<std::array<int, 2>> copied_vertices;
   std::vector<int> faces_without_area;
   std::vector<int> unused_vertices;
 
   std::vector<StartFinding> findings;  // one for each list that is not empty, in the order of StartFault
 
-  // free: the lists are complete. non_finite, out_of_range: only unused_vertices is. Budgets: lists of pairs are what was
-  // found until then (out_of_memory: empty), the others complete.
+  // free: the lists are complete. non_finite, out_of_range: only unused_vertices is. Budgets: lists of pairs
+  // are what was found until then (out_of_memory: empty), the others complete.
   Outcome outcome = Outcome::free;
   int vertex = -1;  // the offending vertex of non_finite and out_of_range
   double seconds = 0;
 
-  // Whether a step may start here: known to have no intersecting or touching pair and none within the separation.
+  // Whether a step may start here: known to have no intersecting or touching pair and none within the
+  // separation.
   bool acceptable() const {
     return outcome == Outcome::free && intersections.empty() && touching.empty() && within_separation.empty();
   }
@@ -62,14 +63,15 @@ struct StartReport {
   bool clean() const { return outcome == Outcome::free && findings.empty(); }
 };
 
-// Looks at x (#V x 3) as the start of a step with these options. Intersections, touching pairs, copies and faces without
-// area are decided exactly. Throws std::invalid_argument for a wrong number of rows or options out of range. Safe to call
-// concurrently on one Mesh.
+// Looks at x (#V x 3) as the start of a step with these options. Intersections, touching pairs, copies and
+// faces without area are decided exactly. Throws std::invalid_argument for a wrong number of rows or options
+// out of range. Safe to call concurrently on one Mesh.
 ONSET_API StartReport check(const Mesh& mesh, const Positions& x, const Options& options = {});
 
-// Vertices at exactly the same place, as {smaller id, larger id}, by both: for Mesh::set_excluded_vertices, after which
-// all copies at one place count as one vertex. k copies are k (k - 1) / 2 pairs; Mesh::set_weld needs no list. Throws
-// std::invalid_argument for other than 3 columns, or naming the first row that is not finite. O(#V log #V + pairs).
+// Vertices at exactly the same place, as {smaller id, larger id}, by both: for Mesh::set_excluded_vertices,
+// after which all copies at one place count as one vertex. k copies are k (k - 1) / 2 pairs; Mesh::set_weld
+// needs no list. Throws std::invalid_argument for other than 3 columns, or naming the first row that is not
+// finite. O(#V log #V + pairs).
 ONSET_API std::vector<std::array<int, 2>> duplicate_vertices(const Positions& x);
 
 }  // namespace onset

@@ -69,7 +69,8 @@ class CollisionMesh {
       }
     };
     use(edges), use(faces);
-    if (edges.size() > 0) onset::Mesh(full_rest_positions.rows(), edges, faces);  // throws by the full mesh's ids
+    if (edges.size() > 0)
+      onset::Mesh(full_rest_positions.rows(), edges, faces);  // throws by the full mesh's ids
     for (std::size_t v = 0; v < surface.size(); ++v)
       if (surface[v] == 0) surface[v] = int(full.size()), full.push_back(int(v));
     const auto renumbered = [&](Eigen::MatrixXi ids) {
@@ -293,8 +294,10 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
   return search.largest_step().result.step;
 }
 
-// Whether an edge and a face without a common vertex have a common point, exactly; a touch is one. Also true for NaN.
-inline bool has_intersections(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices, const BroadPhase* = nullptr) {
+// Whether an edge and a face without a common vertex have a common point, exactly; a touch is one. Also true
+// for NaN.
+inline bool has_intersections(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices,
+                              const BroadPhase* = nullptr) {
   const onset::Mesh& all = mesh.onset_mesh();
   if (!mesh.can_collide) return onset::has_intersections(all, vertices);
   const Intersections found = intersections(all, vertices);

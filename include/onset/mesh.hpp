@@ -89,7 +89,8 @@ class ONSET_API Mesh {
   void set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs);
 
   // These very pairs, such as those that check() finds touching at the start: std::vector<Pair>(list.begin(),
-  // list.end()) makes one of any list of pairs. `vertices` are not looked at. set_points forgets pairs of points.
+  // list.end()) makes one of any list of pairs. `vertices` are not looked at. set_points forgets pairs of
+  // points.
   void set_excluded_pairs(const std::vector<Pair>& pairs);
   // The same for an edge and a face, in intersections(), has_intersections() and check().
   void set_excluded_intersections(const std::vector<Intersection>& pairs);

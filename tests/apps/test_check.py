@@ -110,7 +110,9 @@ class Check(AppTest):
             result = self.json(command, a, b, "--weld")
             self.assertEqual((result["outcome"], result.get("notes")), ("free", None))
         self.assertEqual(self.json("step", a, b, "--weld")["step"], 1)
-        self.assertEqual(self.json("candidates", a, b, "--weld")["candidates"], {"vf": 0, "ee": 0})
+        # Left are the two corners of the square, each beside the other triangle.
+        self.assertEqual(self.json("candidates", a, b)["candidates"], {"vf": 6, "ee": 7})
+        self.assertEqual(self.json("candidates", a, b, "--weld")["candidates"], {"vf": 2, "ee": 0})
         self.assertEqual(self.json("bench", a, b, "--weld", "--repeats", "0")["scenes"][0]["step_size"], 1)
 
     def test_step_and_active_set_point_to_it(self):

@@ -19,7 +19,8 @@ class Demo(AppTest):
         self.assertEqual(step["outcome"], "contact")
         # The lower layer is 0.05 over the sphere, ripples of 0.01 aside, and falls by 0.12.
         self.assertTrue(0.3 < step["step"] < 0.55, step["step"])
-        self.assertEqual(contacts["earliest"], step["step"])
+        self.assertEqual(contacts["earliest"], step["toi"])
+        self.assertTrue(step["toi"] - 1e-9 < step["step"] <= step["toi"])
         self.assertGreater(contacts["contacts"]["vf"], 0)
         self.assertGreater(contacts["contacts"]["ee"], 0)
         self.assertLess(taken["step"], step["step"])

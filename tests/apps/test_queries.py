@@ -64,7 +64,7 @@ class Queries(AppTest):
         hit, miss = self.answers(name)
         self.assertEqual(hit[:4], [f'"{name}"', "0", "vf", "contact"])
         self.check_half(hit[4])
-        self.assertEqual(miss[1:], ["1", "vf", "free", "1"])
+        self.assertEqual(miss[1:], ["1", "vf", "free", "inf"])
 
     def test_total_of_several_files(self):
         self.file("1-vf.csv", rows(vertex_face(1, -1), 1))
@@ -87,7 +87,7 @@ class Queries(AppTest):
         """The same eight points: as a point and a face they meet, as two edges they do not."""
         self.file("vf.csv", rows(vertex_face(1, -1), 1))
         self.assertEqual(self.answers("vf.csv")[0][2:4], ["vf", "contact"])
-        self.assertEqual(self.answers("vf.csv", "--kind", "ee")[0][2:], ["ee", "free", "1"])
+        self.assertEqual(self.answers("vf.csv", "--kind", "ee")[0][2:], ["ee", "free", "inf"])
         self.file("what.csv", rows(edge_edge(1, -1), 1))
         self.assertEqual(self.answers("what.csv", "--kind", "ee")[0][2:4], ["ee", "contact"])
 

@@ -24,7 +24,7 @@ class Replay(AppTest):
         self.assertEqual(replayed["differing"], 0)
         first = replayed["queries"][0]
         self.assertEqual((first["kind"], first["outcome"], first["verdict"]), ("vf", "contact", "same"))
-        self.assertEqual(first["toi"], step["step"])
+        self.assertEqual(first["toi"], step["toi"])
         # The format that `queries` reads, too: no false answers to what the dump says.
         total = self.json("queries", "slow-vf.csv", "--tolerance", "1e-6")["total"]
         self.assertEqual((total["queries"], total["false_negatives"], total["false_positives"]), (len(rows) // 8, 0, 0))

@@ -74,7 +74,9 @@ class Scenes(AppTest):
                 contacts = self.json("active-set", *frames(name))
                 print(f"{name}: {result['outcome']} at {result['step']}, "
                       f"{result['seconds']['total']:.2f} s; active set {contacts['seconds']['total']:.2f} s")
-                self.assertGreaterEqual(result["step"], contacts["earliest"])
+                self.assertEqual(result["toi"], contacts["earliest"])
+                self.assertLessEqual(result["step"], result["toi"])
+                self.assertGreater(result["step"], 0)
                 self.assertLess(result["step"], 1)
 
     def test_exact_active_sets(self):
@@ -96,10 +98,11 @@ class Scenes(AppTest):
             with self.subTest(name):
                 steps = [self.json("step", *frames(name), "--certainty", "exact", "--relative-tolerance", tolerance)
                          for tolerance in ["1e-3", "1e-10"]]
-                times = {(s["step"], json.dumps(s["limiting"])) for s in steps}
+                times = {(s["toi"], json.dumps(s["limiting"])) for s in steps}
                 self.assertEqual(len(times), 1)
                 pair = self.json("active-set", *frames(name), "--certainty", "exact")["earliest_pair"]
-                self.assertEqual(pair["toi"], steps[0]["step"])
+                self.assertEqual(pair["toi"], steps[0]["toi"])
+                self.assertTrue(0 < steps[0]["step"] <= pair["toi"])
                 self.assertLessEqual(steps[0]["limiting"]["toi_hi"] - pair["toi"], 2 ** -52)
 
     def test_candidate_counts(self):

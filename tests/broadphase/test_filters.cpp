@@ -71,7 +71,8 @@ bool named(const Rules& r, PairKind kind, int a, int b) {
   for (const Intersection& p : r.intersections)
     if (kind == kEdgeFace && p.edge == a && p.face == b) return true;
   for (const Pair& p : r.pairs)
-    if (p.kind == kind && ((p.a == a && p.b == b) || (kind == PairKind::edge_edge && p.a == b && p.b == a))) return true;
+    if (p.kind == kind && ((p.a == a && p.b == b) || (kind == PairKind::edge_edge && p.a == b && p.b == a)))
+      return true;
   return false;
 }
 

@@ -157,14 +157,16 @@ TEST_CASE("a surface of a full mesh takes its vertices and gives its dofs back",
 TEST_CASE("edges that lack one of a face are refused by the ids that were passed", "[unit]") {
   const MatrixXd x = MatrixXd::Random(5, 3);
   const MatrixXi faces = Eigen::RowVector3i(1, 2, 4), wire = Eigen::RowVector2i(1, 2);
-  CHECK_THROWS_WITH(ipc::CollisionMesh(x, wire, faces), Catch::Contains("face row 0") && Catch::Contains("vertices 2 and 4"));
+  CHECK_THROWS_WITH(ipc::CollisionMesh(x, wire, faces),
+                    Catch::Contains("face row 0") && Catch::Contains("vertices 2 and 4"));
   CHECK_THROWS_WITH(ipc::CollisionMesh::build_from_full_mesh(x, wire, faces),
                     Catch::Contains("face row 0") && Catch::Contains("vertices 2 and 4"));
   const auto mesh = ipc::CollisionMesh::build_from_full_mesh(x, onset::complete_edges(wire, faces), faces);
   CHECK((mesh.num_edges() == 3 && mesh.num_vertices() == 3));
 }
 
-TEST_CASE("intersections are seen as ipc-toolkit's call of that name does, less what cannot collide", "[unit]") {
+TEST_CASE("intersections are seen as ipc-toolkit's call of that name does, less what cannot collide",
+          "[unit]") {
   MatrixXd x(6, 3);
   x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1, 1, 5, 1;
   const MatrixXi faces = (MatrixXi(2, 3) << 0, 1, 2, 3, 4, 5).finished();

@@ -5,6 +5,7 @@
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact_pair.hpp"
 #include "tests/narrowphase/fuzz.hpp"
+#include "tests/narrowphase/hard_pairs.hpp"
 #include "tests/oracle/distance.hpp"
 #include "tests/scenes/families.hpp"
 #include "tests/scenes/random_query.hpp"
@@ -17,7 +18,6 @@ using scenes::Random;
 namespace {
 
 constexpr double kU = 0x1p-53;
-using Points = std::array<Point, 4>;
 
 std::uint64_t seed() {
   const char* text = std::getenv("ONSET_SEED");
@@ -77,7 +77,7 @@ struct Truth {
   }
 };
 
-std::array<RationalVector, 4> exact(const Points& x) {
+std::array<RationalVector, 4> exact(const PairPoints& x) {
   return {tests::exact(x[0]), tests::exact(x[1]), tests::exact(x[2]), tests::exact(x[3])};
 }
 
@@ -129,7 +129,7 @@ void check(const Truth& truth, const ClosestPoints& found) {
   check_direction(truth, found);
 }
 
-ClosestPoints closest(PairKind kind, const Points& p) {
+ClosestPoints closest(PairKind kind, const PairPoints& p) {
   const double* const x[4] = {p[0].data(), p[1].data(), p[2].data(), p[3].data()};
   return closest_points(kind, x);
 }
@@ -138,129 +138,12 @@ ClosestPoints closest(const Query& q, double t) {
   const double* const x1[4] = {q.t1[0].data(), q.t1[1].data(), q.t1[2].data(), q.t1[3].data()};
   return closest_points(q.kind, x0, x1, t);
 }
-void check(PairKind kind, const Points& x) {
+void check(PairKind kind, const PairPoints& x) {
   INFO(scenes::to_text({kind, x, x}));
   check(Truth(kind, exact(x)), closest(kind, x));
 }
 
-Points mapped(Points x, const std::array<int, 3>& axes, const Point& signs, double scale,
-              const Point& offset) {
-  for (Point& p : x) {
-    Point r;
-    for (std::size_t a = 0; a < 3; ++a) r[a] = scale * signs[a] * p[std::size_t(axes[a])] + offset[a];
-    p = r;
-  }
-  return x;
-}
-double sign(Random& random) { return scenes::coin(random) ? 1 : -1; }
-
-// In any position that keeps ties exact, and now and then in others and far away, at any scale.
-Points placed(Points x, Random& random) {
-  std::array<int, 3> axes{0, 1, 2};
-  std::shuffle(axes.begin(), axes.end(), random);
-  Point offset{0, 0, 0};
-  if (scenes::integer(random, 0, 3) == 0) offset = scenes::point(random, scenes::power_of_ten(random, -2, 6));
-  if (scenes::integer(random, 0, 3) == 0) {
-    const scenes::Matrix m = scenes::rotation(random, scenes::uniform(random, 0, 6));
-    for (Point& p : x) p = scenes::product(m, p);
-  }
-  const int exponents[] = {0, 0, 0, -1010, 950, scenes::integer(random, -1060, 950)};
-  const double scale = std::ldexp(1.0, exponents[scenes::integer(random, 0, 5)]);
-  x = mapped(x, axes, {sign(random), sign(random), sign(random)}, 1, offset);
-  return mapped(x, {0, 1, 2}, {1, 1, 1}, scale, {0, 0, 0});
-}
-
-double tiny(Random& random) {
-  switch (scenes::integer(random, 0, 4)) {
-    case 0:
-      return 0;
-    case 1:
-      return std::ldexp(1.0, -scenes::integer(random, 20, 70)) * sign(random);
-    default:
-      return scenes::power_of_ten(random, -17, -6) * sign(random);
-  }
-}
-
-// A point above a corner or a side that two features share, off it by next to nothing, at any height.
-Points tie(PairKind kind, Random& random) {
-  const double height = scenes::power_of_ten(random, -12, 0);
-  Point at{tiny(random), tiny(random), height};
-  if (kind == PairKind::vertex_face) {
-    if (scenes::coin(random)) at[0] += 0.5;  // above the middle of a side
-    return {at, Point{0, 0, 0}, Point{1, tiny(random), tiny(random)},
-            Point{scenes::uniform(random, -1, 1), -1, scenes::coin(random) ? tiny(random) : -1}};
-  }
-  // The end of one edge above the other edge, or above its end.
-  const double to = scenes::coin(random) ? 0 : scenes::uniform(random, -1, 1);
-  return {
-      Point{scenes::coin(random) ? -1.0 : 0.0, 0, 0}, Point{1, tiny(random), tiny(random)}, at,
-      Point{at[0] + to, at[1] + 1, height + (scenes::coin(random) ? tiny(random) : scenes::unit(random))}};
-}
-
-// Thinner than anything that is left of a cross product, the other primitive near it.
-Points needle(PairKind kind, Random& random) {
-  const Point along = scenes::point(random);
-  const double width = scenes::power_of_ten(random, -18, -1), s = scenes::uniform(random, -0.2, 1.2);
-  const auto near = [&](double t, double off) {
-    Point p = scenes::times(t, along);
-    for (double& c : p) c += off * scenes::uniform(random, -1, 1);
-    return p;
-  };
-  const double height = scenes::power_of_ten(random, -18, 0);
-  if (kind == PairKind::vertex_face)
-    return {near(s, height), Point{0, 0, 0}, near(1, 0), near(scenes::unit(random), width)};
-  return {Point{0, 0, 0}, near(1, 0), near(s, height),
-          near(s + scenes::uniform(random, -1, 1), height + width)};
-}
-
-// Edges at angles from 0 to 1e-6, on one line, side by side, or one above the other.
-Points parallel(PairKind kind, Random& random) {
-  const double angle = scenes::coin(random) ? 0 : scenes::power_of_ten(random, -17, -6);
-  const double x = scenes::uniform(random, -1.5, 1.5),
-               height = scenes::coin(random) ? 0 : scenes::power_of_ten(random, -15, 0);
-  if (kind == PairKind::vertex_face)  // next to no area
-    return {Point{x, height, tiny(random)}, Point{-1, 0, 0}, Point{1, 0, 0},
-            Point{scenes::uniform(random, -2, 2), angle, tiny(random)}};
-  const Point base{x, tiny(random), height};
-  return {Point{-1, 0, 0}, Point{1, 0, 0}, base,
-          scenes::plus(base, Point{sign(random), angle, tiny(random)})};
-}
-
-// Edges of no length, faces without area, all at one point.
-Points degenerate(PairKind kind, Random& random) {
-  Points x{scenes::point(random), scenes::point(random), scenes::point(random), scenes::point(random)};
-  const std::size_t side = std::size_t(scenes::first_body(kind));
-  x[3] = scenes::integer(random, 0, 2) == 0 ? x[2] : scenes::times(scenes::integer(random, -1, 2), x[2]);
-  if (scenes::coin(random)) x[1] = x[scenes::coin(random) ? 0 : 2];
-  if (scenes::integer(random, 0, 3) == 0)
-    x[0] = scenes::plus(x[side], Point{tiny(random), tiny(random), tiny(random)});
-  if (scenes::integer(random, 0, 9) == 0) x = {x[0], x[0], x[0], x[0]};
-  return x;
-}
-
-// Small integers: exact ties, touching and coplanar pairs of every kind.
-Points lattice(PairKind kind, Random& random) {
-  const Query q = scenes::grid_query(kind, random, 1 + int(scenes::coin(random)));
-  return q.t0;
-}
-
-// One near the other by anything from a unit to 1e-300.
-Points near_touching(PairKind kind, Random& random) {
-  Query query = scenes::random_query(kind, random);
-  for (Point& p : query.t0)
-    for (double& c : p) c = std::round(64 * c) / 64;
-  const std::size_t first = std::size_t(scenes::first_body(kind));
-  Point& moved = query.t0[0];
-  if (scenes::coin(random))
-    moved = query.t0[first];
-  else
-    moved = scenes::times(0.5, scenes::plus(query.t0[first], query.t0[first + 1]));
-  moved[std::size_t(scenes::integer(random, 0, 2))] +=
-      scenes::power_of_ten(random, scenes::coin(random) ? -300 : -20, 0);
-  return query.t0;
-}
-
-void check_many(Points (*make)(PairKind, Random&), int count, std::uint64_t which) {
+void check_many(PairPoints (*make)(PairKind, Random&), int count, std::uint64_t which) {
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     Random random(seed() * 100 + 2 * which + (kind == PairKind::edge_edge));
     for (int i = 0; i < fuzz(count); ++i) check(kind, placed(make(kind, random), random));
@@ -308,7 +191,7 @@ TEST_CASE("gaps are certified far below the rounding of doubles", "[oracle][prop
   Random random(seed() + 60);
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
     for (int i = 0; i < fuzz(400); ++i) {
-      const Points x = near_touching(kind, random);
+      const PairPoints x = near_touching(kind, random);
       const Truth truth(kind, exact(x));
       const bool small = truth.distance2 < Rational(0x1p-94 * truth.rho * truth.rho);
       if (!small || truth.distance2 < Rational(0x1p-170 * truth.rho * truth.rho)) continue;
@@ -320,7 +203,8 @@ TEST_CASE("gaps are certified far below the rounding of doubles", "[oracle][prop
 }
 
 TEST_CASE("closest points at a time are those of the exact motion", "[oracle][property]") {
-  Points (*const makers[])(PairKind, Random&) = {tie, needle, parallel, degenerate, lattice, near_touching};
+  PairPoints (*const makers[])(PairKind, Random&) = {tie,        needle,  parallel,
+                                                     degenerate, lattice, near_touching};
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     Random random(seed() * 100 + 50);
     for (int i = 0; i < fuzz(600); ++i) {
@@ -344,16 +228,17 @@ TEST_CASE("closest points at a time are those of the exact motion", "[oracle][pr
 }
 
 TEST_CASE("a vertex above a corner that ties has the whole distance", "[unit]") {
-  const Points x{Point{0, 0, 0x1.4p-8}, Point{0, 0, 0}, Point{1, 0, 0x1.4p-27}, Point{0, 1, -1}};
+  const PairPoints x{Point{0, 0, 0x1.4p-8}, Point{0, 0, 0}, Point{1, 0, 0x1.4p-27}, Point{0, 1, -1}};
   const ClosestPoints found = closest(PairKind::vertex_face, x);
   CHECK(found.lower >= 0x1.3ffffffffff00p-8);
   CHECK(found.upper <= 0x1.4000000000100p-8);
 }
 
 TEST_CASE("a vertex beside a needle has its distance to the needle's side", "[unit]") {
-  const Points x{Point{-0x1.1a1904b081edep-8, -0x1.11a7dcb91c158p-3, -0x1.15336b771baa1p-3}, Point{0, 0, 0},
-                 Point{-0x1.72b3e87a83dcp-6, -0x1.679bf272af91dp-1, -0x1.6c44900134754p-1},
-                 Point{-0x1.cd39571109748p-9, -0x1.bf6be4f6a653p-4, -0x1.c537bb7bd54c9p-4}};
+  const PairPoints x{Point{-0x1.1a1904b081edep-8, -0x1.11a7dcb91c158p-3, -0x1.15336b771baa1p-3},
+                     Point{0, 0, 0},
+                     Point{-0x1.72b3e87a83dcp-6, -0x1.679bf272af91dp-1, -0x1.6c44900134754p-1},
+                     Point{-0x1.cd39571109748p-9, -0x1.bf6be4f6a653p-4, -0x1.c537bb7bd54c9p-4}};
   const ClosestPoints found = closest(PairKind::vertex_face, x);
   CHECK(std::fabs(found.distance - 6.99102e-14) < 1e-15);
   CHECK(std::fabs(found.lower - 6.99102e-14) < 1e-15);

@@ -1,9 +1,8 @@
 // What an edge and a face at rest have in common, against exact arithmetic by another method.
-#include "narrowphase/edge_face.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "narrowphase/edge_face.hpp"
 #include "narrowphase/exact.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/edge_face.hpp"
@@ -75,7 +74,8 @@ Points grid_points(Random& random, int size) {
   return x;
 }
 
-// Kinds are affine: scaled by a power of two along each axis, all the same in half of the cases, and moved where that is exact.
+// Kinds are affine: scaled by a power of two along each axis, all the same in half of the cases, and moved
+// where that is exact.
 Points moved(Points x, Random& random) {
   const int low = scenes::integer(random, 0, 2), high = scenes::integer(random, 0, 2);
   const int least[] = {-1074, -300, -30}, most[] = {0, 290, 1016};
@@ -83,7 +83,8 @@ Points moved(Points x, Random& random) {
   int exponent = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     if (a == 0 || !same) exponent = scenes::integer(random, least[low], most[high]);
-    const double offset = scenes::coin(random) ? 0 : scenes::integer(random, -1000000000, 1000000000) * 0x1p19;
+    const double offset =
+        scenes::coin(random) ? 0 : scenes::integer(random, -1000000000, 1000000000) * 0x1p19;
     const bool room = exponent + 51 < 1020;
     for (Point& p : x) p[a] = std::ldexp(p[a] + (room ? offset : 0), exponent);
   }
@@ -99,21 +100,21 @@ TEST_CASE("an edge and a face: every way to meet, by hand", "[unit]") {
     CHECK((truth<Rational>({e0, e1, f0, f1, f2}) == expected));
   };
   with({1, 1, -1}, {1, 1, 1}, kCrossing);
-  with({1, 1, 0}, {1, 1, 1}, kTouching);        // an end on the face
-  with({2, 2, -1}, {2, 2, 1}, kTouching);       // through a side
-  with({4, 0, -1}, {4, 0, 1}, kTouching);       // through a corner
-  with({4, 0, 0}, {5, 0, 1}, kTouching);        // an end at a corner
-  with({1, 1, 1}, {1, 1, 2}, kApart);           // above
-  with({3, 3, -1}, {3, 3, 1}, kApart);          // past a side
-  with({5, 0, -1}, {5, 0, 1}, kApart);          // on the line of a side
-  with({1, 1, 0}, {2, 1, 0}, kOverlapping);     // within
-  with({-1, 1, 0}, {5, 1, 0}, kOverlapping);    // across
-  with({-1, 0, 0}, {1, 0, 0}, kOverlapping);    // along a side
-  with({-2, 0, 0}, {0, 0, 0}, kTouching);       // in the line of a side, up to a corner
-  with({-1, 1, 0}, {1, -1, 0}, kTouching);      // in the plane, past a corner
-  with({-1, -1, 0}, {1, -1, 0}, kApart);        // in the plane, beside
-  with({4, 4, 0}, {2, 2, 0}, kTouching);        // in the plane, up to a side
-  with({1, 1, 0}, {1, 1, 0}, kTouching);        // points
+  with({1, 1, 0}, {1, 1, 1}, kTouching);      // an end on the face
+  with({2, 2, -1}, {2, 2, 1}, kTouching);     // through a side
+  with({4, 0, -1}, {4, 0, 1}, kTouching);     // through a corner
+  with({4, 0, 0}, {5, 0, 1}, kTouching);      // an end at a corner
+  with({1, 1, 1}, {1, 1, 2}, kApart);         // above
+  with({3, 3, -1}, {3, 3, 1}, kApart);        // past a side
+  with({5, 0, -1}, {5, 0, 1}, kApart);        // on the line of a side
+  with({1, 1, 0}, {2, 1, 0}, kOverlapping);   // within
+  with({-1, 1, 0}, {5, 1, 0}, kOverlapping);  // across
+  with({-1, 0, 0}, {1, 0, 0}, kOverlapping);  // along a side
+  with({-2, 0, 0}, {0, 0, 0}, kTouching);     // in the line of a side, up to a corner
+  with({-1, 1, 0}, {1, -1, 0}, kTouching);    // in the plane, past a corner
+  with({-1, -1, 0}, {1, -1, 0}, kApart);      // in the plane, beside
+  with({4, 4, 0}, {2, 2, 0}, kTouching);      // in the plane, up to a side
+  with({1, 1, 0}, {1, 1, 0}, kTouching);      // points
   with({2, 2, 0}, {2, 2, 0}, kTouching);
   with({3, 3, 0}, {3, 3, 0}, kApart);
   with({1, 1, 1}, {1, 1, 1}, kApart);
@@ -138,7 +139,8 @@ TEST_CASE("an edge and a face without area: the segment or point that it is, by 
   with({{{-0.0, 1, 1}, {-0.0, 1, 1}, {0.0, 1, 1}, {0.0, 1, 1}, {0.0, 1, 1}}}, kTouching);
 }
 
-TEST_CASE("edges and faces on small grids, scaled and moved from subnormal numbers to 2^1019", "[oracle][property]") {
+TEST_CASE("edges and faces on small grids, scaled and moved from subnormal numbers to 2^1019",
+          "[oracle][property]") {
   Random random(70 + oracle::fuzz_seed());
   int counts[4] = {};
   for (int i = 0; i < oracle::fuzz(120000); ++i) {
@@ -160,7 +162,8 @@ TEST_CASE("edges and faces that touch up to the last bits", "[oracle][property]"
   int counts[4] = {};
   for (int i = 0; i < oracle::fuzz(12000); ++i) {
     Points x;
-    const double size = scenes::power_of_ten(random, -3, 3), offset = i % 3 == 0 ? 0 : scenes::power_of_ten(random, -2, 6);
+    const double size = scenes::power_of_ten(random, -3, 3),
+                 offset = i % 3 == 0 ? 0 : scenes::power_of_ten(random, -2, 6);
     for (Point& p : x) {
       p = scenes::point(random, size);
       for (double& c : p) c += offset;
@@ -168,14 +171,27 @@ TEST_CASE("edges and faces that touch up to the last bits", "[oracle][property]"
     const auto between = [&](const Point& p, const Point& q, double t) {
       return Point{p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])};
     };
-    const Point side = between(x[2], x[3], scenes::unit(random)), inside = between(side, x[4], scenes::unit(random));
+    const Point side = between(x[2], x[3], scenes::unit(random)),
+                inside = between(side, x[4], scenes::unit(random));
     switch (i % 6) {
-      case 0: x[0] = inside; break;                                                       // an end on the face
-      case 1: x[0] = side; break;                                                         // an end on a side
-      case 2: x[0] = between(x[1], side, 2); break;                                       // through a side
-      case 3: x[0] = inside, x[1] = between(inside, side, 3); break;                      // in the plane
-      case 4: x[4] = between(x[2], x[3], scenes::uniform(random, -1, 2)), x[0] = side; break;  // no area
-      default: x[0] = between(x[2], x[3], 2), x[1] = side; break;                         // in the line of a side
+      case 0:
+        x[0] = inside;
+        break;  // an end on the face
+      case 1:
+        x[0] = side;
+        break;  // an end on a side
+      case 2:
+        x[0] = between(x[1], side, 2);
+        break;  // through a side
+      case 3:
+        x[0] = inside, x[1] = between(inside, side, 3);
+        break;  // in the plane
+      case 4:
+        x[4] = between(x[2], x[3], scenes::uniform(random, -1, 2)), x[0] = side;
+        break;  // no area
+      default:
+        x[0] = between(x[2], x[3], 2), x[1] = side;
+        break;  // in the line of a side
     }
     const Kind expected = truth<Rational>(x);
     ++counts[expected ? 1 + int(*expected) : 0];
@@ -186,18 +202,21 @@ TEST_CASE("edges and faces that touch up to the last bits", "[oracle][property]"
   CHECK(counts[1] > oracle::fuzz(1000));
 }
 
-// In their plane exactly, in integers whose products round: the directions that could separate them are off by rounding.
+// In their plane exactly, in integers whose products round: the directions that could separate them are off
+// by rounding.
 TEST_CASE("edges that reach the side of a face in its plane", "[oracle][property]") {
   Random random(75 + oracle::fuzz_seed());
   int touching = 0;
   for (int i = 0; i < oracle::fuzz(10000); ++i) {
     const int bits = scenes::integer(random, 4, 40);
-    const Point v = scenes::grid_point(random, bits), w = scenes::grid_point(random, bits), f0 = scenes::grid_point(random, bits + 8);
+    const Point v = scenes::grid_point(random, bits), w = scenes::grid_point(random, bits),
+                f0 = scenes::grid_point(random, bits + 8);
     const auto at = [&](double s, double t) {
       return Point{f0[0] + s * v[0] + t * w[0], f0[1] + s * v[1] + t * w[1], f0[2] + s * v[2] + t * w[2]};
     };
     const double s = scenes::integer(random, -1, 9), beyond = scenes::integer(random, 0, 5);
-    const Points x{at(s, 0), at(scenes::integer(random, -9, 9), -beyond), f0, at(8, 0), at(scenes::integer(random, -9, 9), 7)};
+    const Points x{at(s, 0), at(scenes::integer(random, -9, 9), -beyond), f0, at(8, 0),
+                   at(scenes::integer(random, -9, 9), 7)};
     const Kind expected = truth<Rational>(x);
     touching += expected == kTouching;
     INFO(text(x));
@@ -231,8 +250,11 @@ TEST_CASE("edges and faces of very different sizes", "[oracle][property]") {
 // One component of the normal is infinite, and not the one that decides.
 TEST_CASE("an edge through a face whose normal overflows", "[unit]") {
   const double big = 0x1p509, small = 0x1p-10;
-  const Points x{{{small, 3 * small, 14 * small}, {small, -3 * small, 14 * small}, {0, 0, 0},
-                  {-3 * big, 7 * big, 7 * big}, {4 * big, -7 * big, 7 * big}}};
+  const Points x{{{small, 3 * small, 14 * small},
+                  {small, -3 * small, 14 * small},
+                  {0, 0, 0},
+                  {-3 * big, 7 * big, 7 * big},
+                  {4 * big, -7 * big, 7 * big}}};
   CHECK((truth<Rational>(x) == kCrossing));
   check_all_orders(x, kCrossing);
 }
@@ -278,7 +300,8 @@ TEST_CASE("three points on one line, up to the last bits", "[oracle][property]")
     Points x = moved(grid_points(random, 1 + i % 3), random);
     if (i % 2 == 0) {
       for (std::size_t k : {2, 3}) x[k] = scenes::point(random, 1e3);
-      for (std::size_t a = 0; a < 3; ++a) x[4][a] = x[2][a] + (i % 4 == 0 ? 2 : 1.0 / 3) * (x[3][a] - x[2][a]);
+      for (std::size_t a = 0; a < 3; ++a)
+        x[4][a] = x[2][a] + (i % 4 == 0 ? 2 : 1.0 / 3) * (x[3][a] - x[2][a]);
     }
     const auto at = [&](std::size_t k) { return oracle::Vector<Rational>{x[k][0], x[k][1], x[k][2]}; };
     const bool expected =

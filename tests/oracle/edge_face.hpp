@@ -1,5 +1,6 @@
-// What a closed segment and a closed triangle have in common, for any exact ring Q: the part of the segment on which linear
-// inequalities hold. Neither orientations nor projections, so that it shares nothing with the library but the definition.
+// What a closed segment and a closed triangle have in common, for any exact ring Q: the part of the segment
+// on which linear inequalities hold. Neither orientations nor projections, so that it shares nothing with the
+// library but the definition.
 #pragma once
 
 #include <onset/intersections.hpp>
@@ -39,8 +40,8 @@ struct AlongSegment {
 
 // Of a triangle with area and its normal n.
 template <class Q>
-std::optional<IntersectionKind> with_triangle(const std::array<Vector<Q>, 2>& e, const std::array<Vector<Q>, 3>& f,
-                                              const Vector<Q>& n) {
+std::optional<IntersectionKind> with_triangle(const std::array<Vector<Q>, 2>& e,
+                                              const std::array<Vector<Q>, 3>& f, const Vector<Q>& n) {
   LinearPart<Q> part;
   const AlongSegment<Q> height(n, f[0], e[0], e[1]);
   part.zero(height.start, height.slope);
@@ -59,7 +60,8 @@ std::optional<IntersectionKind> with_triangle(const std::array<Vector<Q>, 2>& e,
 
 // Of the segment or point that a triangle without area is: its longest side.
 template <class Q>
-std::optional<IntersectionKind> with_segment(const std::array<Vector<Q>, 2>& e, const std::array<Vector<Q>, 3>& f) {
+std::optional<IntersectionKind> with_segment(const std::array<Vector<Q>, 2>& e,
+                                             const std::array<Vector<Q>, 3>& f) {
   std::size_t longest = 0;
   const auto side = [&](std::size_t i) { return f[(i + 1) % 3] - f[i]; };
   for (std::size_t i = 1; i < 3; ++i)
@@ -81,7 +83,8 @@ std::optional<IntersectionKind> with_segment(const std::array<Vector<Q>, 2>& e, 
 
 // None: they are apart.
 template <class Q>
-std::optional<IntersectionKind> edge_face(const std::array<Vector<Q>, 2>& e, const std::array<Vector<Q>, 3>& f) {
+std::optional<IntersectionKind> edge_face(const std::array<Vector<Q>, 2>& e,
+                                          const std::array<Vector<Q>, 3>& f) {
   const Vector<Q> n = cross<Q>(f[1] - f[0], f[2] - f[0]);
   if (n == Vector<Q>{0, 0, 0}) return with_segment<Q>(e, f);
   return with_triangle<Q>(e, f, n);

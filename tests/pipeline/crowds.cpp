@@ -67,7 +67,8 @@ Crowd some_crowd(int round, Random& random) {
 }
 
 Crowd apart_crowd() {
-  return of_scene("apart", scenes::joined(scenes::cloth(4, 4), scenes::translated(scenes::cloth(5, 4), {0.1, 0.1, 0.1})));
+  return of_scene(
+      "apart", scenes::joined(scenes::cloth(4, 4), scenes::translated(scenes::cloth(5, 4), {0.1, 0.1, 0.1})));
 }
 
 }  // namespace onset::tests

@@ -15,8 +15,8 @@ struct Crowd {
   Eigen::MatrixXd x;
 };
 
-// `count` triangles, half as many wires and points, vertices on integers in [-size, size]^3: most of what touches does so
-// exactly. Faces may have no area, edges no length, and vertices share places.
+// `count` triangles, half as many wires and points, vertices on integers in [-size, size]^3: most of what
+// touches does so exactly. Faces may have no area, edges no length, and vertices share places.
 Crowd grid_crowd(int count, int size, scenes::Random& random);
 
 // Of all kinds: grids, soups without structure, sheets in one plane, folded strips.

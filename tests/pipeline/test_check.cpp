@@ -1,4 +1,5 @@
 // What is said about a start, against exact arithmetic; and that the calls it names cure it.
+#include <algorithm>
 #include <onset/onset.hpp>
 
 #include "tests/catch.hpp"
@@ -74,11 +75,12 @@ struct Seam {
 TEST_CASE("touching pairs are those at distance zero, exactly", "[oracle][property]") {
   Random random(90 + oracle::fuzz_seed());
   std::size_t found[2] = {};
-  for (int round = 0; round < oracle::fuzz(12); ++round) {
+  for (int round = 0; round < std::max(6, oracle::fuzz(12)); ++round) {
     const Crowd crowd = some_crowd(round, random);
     INFO(crowd.name << ", round " << round);
     const std::vector<Key> expected = touching_pairs(crowd);
-    for (const BroadPhaseMethod method : {BroadPhaseMethod::bvh, BroadPhaseMethod::hash, BroadPhaseMethod::brute}) {
+    for (const BroadPhaseMethod method :
+         {BroadPhaseMethod::bvh, BroadPhaseMethod::hash, BroadPhaseMethod::brute}) {
       Options o;
       o.broad_phase = method;
       const StartReport report = check(crowd.mesh, crowd.x, o);
@@ -90,13 +92,13 @@ TEST_CASE("touching pairs are those at distance zero, exactly", "[oracle][proper
     }
     for (const Key& k : expected) ++found[std::size_t(k.kind)];
   }
-  CHECK((found[0] > 100 && found[1] > 100));
+  CHECK((found[0] > 30 && found[1] > 30));
 }
 
 TEST_CASE("pairs within the separation are those that come as close, in either norm", "[oracle][property]") {
   Random random(91 + oracle::fuzz_seed());
   std::size_t found[2] = {}, beyond_by_rounding = 0;
-  for (int round = 0; round < oracle::fuzz(12); ++round) {
+  for (int round = 0; round < std::max(6, oracle::fuzz(12)); ++round) {
     Crowd crowd = round % 2 ? grid_crowd(10, 3, random) : some_crowd(round / 2, random);
     std::vector<double> thickness(std::size_t(crowd.mesh.num_vertices()), 0);
     if (round % 3 == 0)
@@ -129,7 +131,7 @@ TEST_CASE("pairs within the separation are those that come as close, in either n
       found[o.norm == Norm::maximum] += is_listed;
     });
   }
-  CHECK((found[0] > 100 && found[1] > 100));
+  CHECK((found[0] > 30 && found[1] > 30));
   CHECK(beyond_by_rounding < (found[0] + found[1]) / 4);
 }
 
@@ -141,8 +143,10 @@ TEST_CASE("the copies of a seam are named, and either call that joins them makes
   CHECK(duplicate_vertices(seam.x) == report.copied_vertices);
   CHECK(says(report, StartFault::copied_vertices, "mesh.set_weld(true)"));
   CHECK(says(report, StartFault::copied_vertices, "first vertices 1 and 3"));
-  CHECK(says(report, StartFault::copied_vertices, "mesh.set_excluded_vertices(onset::duplicate_vertices(x))"));
-  CHECK_FALSE((report.acceptable() || report.clean() || report.touching.empty() || report.intersections.empty()));
+  CHECK(
+      says(report, StartFault::copied_vertices, "mesh.set_excluded_vertices(onset::duplicate_vertices(x))"));
+  CHECK_FALSE(
+      (report.acceptable() || report.clean() || report.touching.empty() || report.intersections.empty()));
   mesh.set_weld(true);
   CHECK(check(mesh, seam.x).clean());
   mesh.set_weld(false);
@@ -193,7 +197,8 @@ TEST_CASE("vertices at one place are found by their coordinates", "[property]") 
   CHECK(duplicate_vertices(Eigen::MatrixXd(0, 3)).empty());
 }
 
-TEST_CASE("a pierced start, faces without area and vertices of nothing are named, with the call to make", "[unit]") {
+TEST_CASE("a pierced start, faces without area and vertices of nothing are named, with the call to make",
+          "[unit]") {
   Eigen::MatrixXd x(8, 3);
   x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1, /* a corner on a side */ 9, 9, 8, 9, 9, 9, 9, 9, 10;
   Eigen::MatrixXi wire(1, 2), F(2, 3);
@@ -201,8 +206,10 @@ TEST_CASE("a pierced start, faces without area and vertices of nothing are named
   F << 0, 1, 2, 5, 6, 7;
   const Eigen::MatrixXi E = complete_edges(wire, F);
   const StartReport pierced = check(Mesh(x, E, F), x);
-  CHECK((pierced.intersections.size() == 1 && pierced.touching.empty() && pierced.faces_without_area == std::vector<int>{1}));
-  CHECK(says(pierced, StartFault::intersecting, "edge 0 (vertices 3 and 4) and face 0 (vertices 0, 1 and 2), crossing"));
+  CHECK((pierced.intersections.size() == 1 && pierced.touching.empty() &&
+         pierced.faces_without_area == std::vector<int>{1}));
+  CHECK(says(pierced, StartFault::intersecting,
+             "edge 0 (vertices 3 and 4) and face 0 (vertices 0, 1 and 2), crossing"));
   CHECK(says(pierced, StartFault::intersecting, "mesh.set_excluded_intersections(report.intersections)"));
   CHECK(says(pierced, StartFault::faces_without_area, "first face 1 (vertices 5, 6 and 7)"));
   CHECK((pierced.findings.size() == 2 && !pierced.acceptable() && !pierced.clean()));
@@ -260,7 +267,8 @@ TEST_CASE("a start that cannot be looked at, or not to the end, is not acceptabl
   CHECK((bad.outcome == Outcome::non_finite && bad.vertex == 7 && !bad.acceptable() && !bad.clean()));
   Options o;
   o.time_limit = 0;
-  CHECK((check(crowd.mesh, crowd.x, o).outcome == Outcome::out_of_time && !check(crowd.mesh, crowd.x, o).acceptable()));
+  CHECK((check(crowd.mesh, crowd.x, o).outcome == Outcome::out_of_time &&
+         !check(crowd.mesh, crowd.x, o).acceptable()));
   o = {};
   o.progress = [](double) { return false; };
   CHECK(check(crowd.mesh, crowd.x, o).outcome == Outcome::cancelled);

@@ -198,7 +198,7 @@ ClosePairs close_pairs_of(const std::array<std::array<double, 3>, 4>& points, do
   Eigen::MatrixXd x(4, 3);
   for (int i = 0; i < 4; ++i)
     for (int a = 0; a < 3; ++a) x(i, a) = points[std::size_t(i)][std::size_t(a)];
-  return close_pairs(Mesh(4, Eigen::MatrixXi(0, 2), Eigen::RowVector3i(1, 2, 3)), x, d_hat);
+  return close_pairs(Mesh(4, Eigen::RowVector3i(1, 2, 3)), x, d_hat);
 }
 
 }  // namespace
@@ -226,7 +226,7 @@ TEST_CASE("a vertex beside a needle has its own distance, and may move", "[unit]
   Eigen::MatrixXd positions(4, 3);
   for (int i = 0; i < 4; ++i)
     for (int a = 0; a < 3; ++a) positions(i, a) = x[std::size_t(i)][std::size_t(a)];
-  const Mesh mesh(4, Eigen::MatrixXi(0, 2), Eigen::RowVector3i(1, 2, 3));
+  const Mesh mesh(4, Eigen::RowVector3i(1, 2, 3));
   for (const double r : safe_distances(mesh, positions, close)) CHECK(r > 3e-14);
 }
 

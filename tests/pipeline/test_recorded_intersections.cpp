@@ -1,4 +1,5 @@
-// Frames of real simulations: the list of intersections against an exact check of every edge and face whose boxes overlap.
+// Frames of real simulations: the list of intersections against an exact check of every edge and face whose
+// boxes overlap.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -18,7 +19,8 @@ namespace {
 #ifdef ONSET_ORACLE_GMP
 using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 #else
-using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+using Integer =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 #endif
 
 // The same frame in units in which all coordinates are integers.
@@ -75,7 +77,8 @@ void sweep(const Mesh& mesh, const Eigen::MatrixXd& x, int stride, F&& visit) {
 }  // namespace
 
 TEST_CASE("recorded frames: the intersections are exactly those of all edges and faces", "[oracle]") {
-  const std::string data = scenes::data_folder("recorded frames: the intersections are exactly those of all edges and faces");
+  const std::string data =
+      scenes::data_folder("recorded frames: the intersections are exactly those of all edges and faces");
   if (data.empty()) return;
   const int stride = oracle::fuzz(4) < 4 ? 8 : 1;  // all, unless tests are asked to be short
   for (const scenes::RecordedStep& step : scenes::recorded_steps()) {
@@ -91,18 +94,22 @@ TEST_CASE("recorded frames: the intersections are exactly those of all edges and
         const auto corners = mesh.face(f);
         if (share_vertex(ends, corners)) return;
         ++looked_at;
-        const auto kind = oracle::edge_face<Integer>({at(ends[0]), at(ends[1])}, {at(corners[0]), at(corners[1]), at(corners[2])});
+        const auto kind = oracle::edge_face<Integer>({at(ends[0]), at(ends[1])},
+                                                     {at(corners[0]), at(corners[1]), at(corners[2])});
         if (kind) expected.push_back({e, f, *kind});
       });
-      std::sort(expected.begin(), expected.end(),
-                [](const Found& p, const Found& q) { return std::tie(p.edge, p.face) < std::tie(q.edge, q.face); });
+      std::sort(expected.begin(), expected.end(), [](const Found& p, const Found& q) {
+        return std::tie(p.edge, p.face) < std::tie(q.edge, q.face);
+      });
       const Intersections found = intersections(mesh, frame->x);
       std::printf("%s, %s: %zu edge-face pairs, %zu crossing, %zu touching, %zu overlapping\n", step.name,
-                  frame == &recording.t0 ? "start" : "end", looked_at, found.count(IntersectionKind::crossing),
-                  found.count(IntersectionKind::touching), found.count(IntersectionKind::overlapping));
+                  frame == &recording.t0 ? "start" : "end", looked_at,
+                  found.count(IntersectionKind::crossing), found.count(IntersectionKind::touching),
+                  found.count(IntersectionKind::overlapping));
       std::vector<Found> listed = plain(found.pairs);
-      listed.erase(std::remove_if(listed.begin(), listed.end(), [&](const Found& p) { return p.edge % stride != 0; }),
-                   listed.end());
+      listed.erase(
+          std::remove_if(listed.begin(), listed.end(), [&](const Found& p) { return p.edge % stride != 0; }),
+          listed.end());
       CHECK((listed == expected));
       CHECK(has_intersections(mesh, frame->x) == !found.empty());
     }

@@ -84,7 +84,8 @@ TEST_CASE("faces need their edges: what is missing is named, and complete_edges 
                     Catch::Contains("face row 2") && Catch::Contains("vertices 5 and 6"));
 }
 
-TEST_CASE("complete edges of random faces are those given, then the others in the order of edges", "[property]") {
+TEST_CASE("complete edges of random faces are those given, then the others in the order of edges",
+          "[property]") {
   scenes::Random random(31);
   for (int round = 0; round < 50; ++round) {
     const Scene scene = scenes::joined(scenes::cube(), scenes::sphere(3 + round % 3, 5));
@@ -100,13 +101,15 @@ TEST_CASE("complete edges of random faces are those given, then the others in th
     for (Eigen::Index e = 0; e < derived.rows(); ++e) {
       bool given = false;
       for (Eigen::Index g = 0; g < some.rows(); ++g)
-        given = given || some.row(g) == derived.row(e) || some.row(g) == Eigen::RowVector2i(derived.row(e).reverse());
+        given = given || some.row(g) == derived.row(e) ||
+                some.row(g) == Eigen::RowVector2i(derived.row(e).reverse());
       if (!given) CHECK(all.row(next++) == derived.row(e));
     }
     CHECK(next == all.rows());
     CHECK(Mesh(scene.x_t0, all, scene.faces).num_edges() == all.rows());
   }
-  CHECK_THROWS_WITH(complete_edges(Eigen::RowVector2i(0, -1), Eigen::MatrixXi(0, 3)), Catch::Contains("edge row 0"));
+  CHECK_THROWS_WITH(complete_edges(Eigen::RowVector2i(0, -1), Eigen::MatrixXi(0, 3)),
+                    Catch::Contains("edge row 0"));
   CHECK_THROWS_AS(complete_edges(Eigen::RowVector3i(0, 1, 2), Eigen::MatrixXi(0, 3)), std::invalid_argument);
 }
 
@@ -115,12 +118,15 @@ TEST_CASE("pairs to leave out are named by row where they are none", "[unit]") {
   Mesh mesh(scene.x_t0, scene.faces);
   const Pair good{PairKind::vertex_face, 15, 0, {}};
   const auto with = [&](const Pair& bad) { mesh.set_excluded_pairs({good, bad}); };
-  CHECK_THROWS_WITH(with({PairKind::vertex_face, 16, 0, {}}),
-                    Catch::Contains("excluded pairs row 1: vertex 16 is out of range, there are 16 vertices"));
+  CHECK_THROWS_WITH(
+      with({PairKind::vertex_face, 16, 0, {}}),
+      Catch::Contains("excluded pairs row 1: vertex 16 is out of range, there are 16 vertices"));
   CHECK_THROWS_WITH(with({PairKind::vertex_face, 0, 24, {}}), Catch::Contains("row 1: face 24"));
   CHECK_THROWS_WITH(with({PairKind::edge_edge, -1, 3, {}}), Catch::Contains("row 1: edge -1"));
   CHECK_THROWS_WITH(with({PairKind::edge_edge, 3, 3, {}}), Catch::Contains("row 1: edge 3 is repeated"));
-  CHECK_THROWS_WITH(with({PairKind(9), 3, 3, {}}), Catch::Contains("row 1") && Catch::Contains("kind 9"));
+  for (const int kind : {2, 9})
+    CHECK_THROWS_WITH(with({PairKind(kind), 3, 4, {}}),
+                      Catch::Contains("row 1") && Catch::Contains("kind " + std::to_string(kind)));
   CHECK_THROWS_WITH(mesh.set_excluded_intersections({{0, 24, IntersectionKind::crossing, {}}}),
                     Catch::Contains("excluded intersections row 0: face 24"));
   CHECK(mesh.plan().vertex_face.excluded == 0);
@@ -136,7 +142,8 @@ TEST_CASE("pairs to leave out are named by row where they are none", "[unit]") {
 TEST_CASE("new points forget the pairs of old ones", "[unit]") {
   Mesh mesh(9, Eigen::MatrixXi((Eigen::MatrixXi(1, 3) << 0, 1, 2).finished()));
   mesh.set_points({3, 4, 5});
-  mesh.set_excluded_pairs({{PairKind::edge_edge, 3, 4, {}}, {PairKind::vertex_face, 7, 0, {}}, {PairKind::edge_edge, 0, 3, {}}});
+  mesh.set_excluded_pairs(
+      {{PairKind::edge_edge, 3, 4, {}}, {PairKind::vertex_face, 7, 0, {}}, {PairKind::edge_edge, 0, 3, {}}});
   mesh.set_excluded_intersections({{4, 0, IntersectionKind::touching, {}}});
   CHECK((mesh.plan().edge_edge.excluded == 2 && mesh.plan().vertex_face.excluded == 1));
   mesh.set_points({6, 7, 8});
