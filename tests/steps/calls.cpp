@@ -16,7 +16,7 @@ Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::Matr
 CallStep Calls::search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
                        const Options& options, double keep) const {
   const LineSearchStep r = LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), options, keep).largest_step();
-  CallStep step{r.result, r.keep, r.result.stats.tolerance, true, {}};
+  CallStep step{r.result, r.keep, r.result.stats.tolerance, true, {}, INFINITY};
   step.result.rounding = r.rounding;
   return step;
 }
@@ -25,17 +25,18 @@ CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixX
                     const Options& options, double d_hat, double keep) const {
   switch (call) {
     case Call::whole:
-      return {compute_collision_free_stepsize(mesh_, x_t0, x_t1, options), 0, 0, true, {}};
+      return {compute_collision_free_stepsize(mesh_, x_t0, x_t1, options), 0, 0, true, {}, INFINITY};
     case Call::line_search:
       return search(mesh_, x_t0, x_t1, options, keep);
     case Call::listed: {
       const Candidates list = compute_candidates(mesh_, x_t0, x_t1, options);
       const StepResult r = compute_collision_free_stepsize(mesh_, list, x_t0, x_t1, options, keep);
-      return {r, keep, r.stats.tolerance, true, list};
+      return {r, keep, r.stats.tolerance, true, list, INFINITY};
     }
     case Call::close: {
       const ClosePairs list = close_pairs(mesh_, x_t0, d_hat, options);
-      return {compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options, keep), keep, keep * d_hat, true, {}};
+      return {
+          compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options, keep), keep, keep * d_hat, true, {}, d_hat};
     }
     case Call::adapter: {
       CallStep step = search(mesh(call), x_t0, x_t1, options, keep);  // for what the adapter does not say

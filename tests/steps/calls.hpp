@@ -22,6 +22,9 @@ struct CallStep {
   double reach = 0;  // a pair that stays farther beyond its separation than this may keep no more than this
   bool says_outcome = true;        // false: only the step is known
   std::optional<Candidates> only;  // the pairs that are looked at, where these are not all
+  double known = INFINITY;         // of pairs that are not near it is only known that their gap is so much
+  // Whether no gap that is known is more than twice the rounding: a step of 0 is no surprise.
+  bool blind() const { return known <= 2 * result.rounding; }
 };
 
 class Calls {

@@ -131,8 +131,7 @@ std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Ca
   });
   std::string broken = known ? "" : broken_by_moving(told, of_end, r.step, r.rounding);
   if (broken.empty() && !another) safe.push_back({r.step, r.rounding});
-  const bool blind = call == Call::close && d_hat <= 2 * r.rounding;  // all that is known of pairs beyond it
-  if (broken.empty() && !blind) broken = stuck(told, r);
+  if (broken.empty() && !step.blind()) broken = stuck(told, r);
   if (broken.empty() && step.says_outcome) broken = wrong_report(told, of_end, r, call);
   if (broken.empty()) broken = share_lost(told, step);
   return by(name(call), broken);

@@ -62,7 +62,11 @@ Point side(PairKind kind, const std::array<Point, 4>& x) {
 // Where the pair would like to be: through the other, along it, away from it, turned, or anywhere.
 Query aimed(PairKind kind, const std::array<Point, 4>& x, Aim aim, Random& random) {
   const double size = std::abs(x[2][0] - x[3][0]) + std::abs(x[2][1] - x[3][1]) + std::abs(x[2][2] - x[3][2]);
-  const double far = size * scenes::power_of_ten(random, -4, 0.5), scatter = aim == Aim::any ? far : 0;
+  const int how_far = scenes::integer(random, 0, 7);
+  const double far = size * (how_far == 0   ? scenes::power_of_ten(random, 0, 12)
+                             : how_far == 1 ? scenes::power_of_ten(random, -20, -4)
+                                            : scenes::power_of_ten(random, -4, 0.5));
+  const double scatter = aim == Aim::any ? far : 0;
   const double along = aim == Aim::press || aim == Aim::part ? 0 : 0.2 * far;
   Point step =
       scenes::plus(scenes::times(aim == Aim::part ? far : -far, side(kind, x)), scenes::point(random, along));
@@ -108,7 +112,8 @@ std::string broken_by(const CallStep& step, const Query& motion, double d, oracl
   if (!(s >= 0 && s <= 1)) return ++counts.bad, "a step outside [0, 1]";
   const bool room = oracle::compare_distance(motion, 0, d + 2 * rounding) > 0;
   counts.stopped += s == 0;
-  if (s == 0 && room) return ++counts.stuck, "stuck, though its gap is more than twice the rounding";
+  if (s == 0 && room && !step.blind())
+    return ++counts.stuck, "stuck, though its gap is more than twice the rounding";
   if (s == 0) return {};
   x = oracle::stored(how, motion, s);
   const std::string broken = oracle::broken_on_the_way(motion, s, x);
@@ -174,4 +179,61 @@ TEST_CASE("a pair pushed on by any call is never stored through, nor stuck while
 TEST_CASE("a pair pushed on beyond a separation is never stored within it", "[property][oracle]") {
   const Counts c = push_all(oracle::fuzz(20), 12, true);
   CHECK(c.through + c.within + c.stuck + c.bad == 0);
+}
+
+TEST_CASE("a pair that is out of room moves on where the motion clears it", "[property][oracle]") {
+  Random random(oracle::fuzz_seed() * 1000 + 13);
+  int out_of_room = 0;
+  for (int i = 0; i < oracle::fuzz(40); ++i) {
+    const PairKind kind = scenes::coin(random) ? PairKind::vertex_face : PairKind::edge_edge;
+    const Elements elements = elements_of(kind);
+    std::array<Point, 4> x = above(kind, kOffsets[scenes::integer(random, 0, 5)], random);
+    const Calls calls({positions(x), positions(x), elements.edges, elements.faces});
+    const Options options = some_options(0, random);
+    Counts counts;
+    bool whole = true;
+    for (int k = 0; k < kPushes && whole && counts.stopped == 0; ++k)
+      whole = push(calls, Call::whole, aimed(kind, x, Aim::press, random), options, x, random, counts);
+    if (!whole || counts.stopped == 0) continue;
+    ++out_of_room;
+    Query parting{kind, x, x};
+    const double far = 0.25 * std::abs(way(kind, x)[0]) + 0.01;
+    for (int k = 0; k < scenes::first_body(kind); ++k)
+      parting.t1[std::size_t(k)] = scenes::plus(x[std::size_t(k)], scenes::times(far, side(kind, x)));
+    if (oracle::compare_distance(parting, 0, 0) == 0) continue;
+    for (Call call : kCalls) {
+      const Eigen::MatrixXd x_t0 = positions(x), x_t1 = end_of(call, x_t0, positions(parting.t1));
+      const CallStep step = calls.ask(call, x_t0, x_t1, options, 0.01);
+      INFO(name(call) << ", " << to_string(step.result.outcome) << ", step " << step.result.step << ", "
+                      << to_text(parting));
+      CHECK(step.result.step > 0);
+      std::array<Point, 4> next = x;
+      CHECK(broken_by(step, with_end(parting, x_t1), 0, oracle::Rounding::product, next, counts) == "");
+    }
+  }
+  CHECK(4 * out_of_room > oracle::fuzz(40));
+}
+
+TEST_CASE("a line search that is asked for less gives no more, and nothing less safe", "[property][oracle]") {
+  Random random(oracle::fuzz_seed() * 1000 + 14);
+  for (int i = 0; i < oracle::fuzz(150); ++i) {
+    const PairKind kind = scenes::coin(random) ? PairKind::vertex_face : PairKind::edge_edge;
+    const std::array<Point, 4> x = above(kind, kOffsets[scenes::integer(random, 0, 5)], random);
+    const Query wish = aimed(kind, x, Aim(scenes::integer(random, 0, 4)), random);
+    const Eigen::MatrixXd x_t0 = positions(wish.t0), dx = positions(wish.t1) - x_t0;
+    const Query motion = with_end(wish, x_t0 + dx);
+    const LineSearch search(mesh_of(kind), x_t0, dx, some_options(0, random),
+                            scenes::uniform(random, 0, 0.9));
+    for (double upper : {1.0, 0.0, scenes::unit(random), scenes::power_of_ten(random, -12, 0), 1.0}) {
+      const LineSearchStep r = search.largest_step(upper);
+      const double s = r.result.step;
+      INFO(to_text(motion) << ", upper " << upper << " -> " << s << " " << to_string(r.result.outcome));
+      CHECK((s >= 0 && s <= upper));
+      CHECK((r.result.outcome == Outcome::free) == (s == upper && r.result.limiting.a < 0));
+      for (oracle::Rounding how : oracle::kRoundings)
+        if (s > 0)
+          CHECK(std::string(oracle::broken_on_the_way(motion, s, oracle::stored(how, motion, s))) == "");
+      if (s == 0 && upper > 0) CHECK(oracle::compare_distance(motion, 0, 2 * r.rounding) <= 0);
+    }
+  }
 }
