@@ -28,6 +28,9 @@ double NarrowPhase::storing_rounding(const Case& c, const Corners& corners) cons
 // The exact motion of this pair alone, as an active set decides it.
 void NarrowPhase::decide(const Case& c, NarrowPhaseStats& stats, std::vector<PairResult>& out) const {
   if (in_.contacts != nullptr && !in_.contacts->holds(in_.contacts->context, c.kind, c.pair)) return;
+  KernelPairs one = c.input;
+  one.vertices += c.row, one.separation += c.row, one.count = 1;
+  if (NarrowPhaseScratch scratch; scratch.survivors.resize(1), cull(c.kind, one, scratch) == 0) return;
   KernelResult r;
   advance(c, nullptr, r);
   if (r.verdict == Verdict::free) return;
@@ -65,7 +68,8 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   }
   KernelResult& found = limit.found;
   // No contact, or a time of contact known exactly: then rounding alone limits the step, and the tolerance has no part in it.
-  const bool sharper = contact.empty() || times_are_exact();
+  // So it is not where a share of the gap is kept.
+  const bool sharper = in_.keep == 0 && (contact.empty() || times_are_exact());
   if (sharper && found.verdict == Verdict::contact && found.t > 0) {
     found.delta = 116 * 0x1p-53 * corners_of(c).rho;  // 16 E7
     found.verdict = found.checks < c.input.max_checks ? Verdict::stalled : Verdict::budget;
@@ -73,7 +77,9 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   }
   const bool free = found.verdict == Verdict::free;
   if (free && limit.from == 0 && contact.empty()) return;
-  PairResult r{c.pair, INFINITY, INFINITY, 0, Outcome::below_rounding};
+  // A share that would be lost is a contact with what is kept.
+  const Outcome outcome = in_.keep > 0 && found.t > 0 ? Outcome::contact : Outcome::below_rounding;
+  PairResult r{c.pair, INFINITY, INFINITY, 0, outcome};
   if (!contact.empty())
     r = contact[0];
   else if (!free)

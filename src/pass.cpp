@@ -323,6 +323,7 @@ void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, 
     if (r.outcome == Outcome::initial_separating) r.outcome = Outcome::contact;
   }
   if (r.step > 0 && limits.clear && limits.clear->result.clear_from > r.step) limiting = &*limits.clear, r.step = 0;
+  if (r.step > 0 && limits.clear) r.shortest = limits.clear->result.clear_from;
   if (limiting == nullptr) return;
   // What starts apart, or parts, is held back at once by rounding alone.
   if (r.step == 0 && limiting->result.outcome != Outcome::initial_contact) r.outcome = Outcome::below_rounding;

@@ -90,8 +90,10 @@ struct Stats {
 
 struct StepResult {
   // In [0, 1]: x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step] along the exact motion, and at
-  // s = step also in whatever order of operations it is rounded to doubles.
+  // s = step, or any s in [shortest, step], also in whatever order of operations it is rounded to doubles.
   double step = 0;
+  // 0, unless a pair parts from a gap so small that storing the positions of a smaller step could close it.
+  double shortest = 0;
   // The earliest contact of the exact motion: never later, infinite where there is none. With
   // CertaintyLevel::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
   // 0 where the call ended early and nothing is known.

@@ -56,7 +56,7 @@ bool same_bytes(const ActiveSet& a, const ActiveSet& b) {
 
 bool same_bytes(const StepResult& a, const StepResult& b) {
   const auto numbers = [](const StepResult& r) {
-    return std::vector<double>{r.step, r.toi, r.toi_hi, r.rounding};
+    return std::vector<double>{r.step, r.shortest, r.toi, r.toi_hi, r.rounding};
   };
   return same_array(numbers(a), numbers(b)) && a.outcome == b.outcome && a.certainty == b.certainty &&
          a.vertex == b.vertex && a.limiting.kind == b.limiting.kind && a.limiting.a == b.limiting.a &&
