@@ -8,7 +8,7 @@
 
 namespace onset {
 
-// The largest step free of contact of the pairs listed (counts and statistics of `candidates` are not used),
+// The largest step free of contact, and safe to store, of the pairs listed (counts and statistics of `candidates` are not used),
 // in any order. Pairs that are not listed are not looked at: the list must hold every pair that may touch, as
 // compute_candidates gives for this motion, or for one that contains it, and the same min_separation or more.
 // A pair that comes within the tolerance and never touches may limit this step and not that of the call

@@ -12,15 +12,14 @@ namespace onset {
 
 struct LineSearchStep {
   StepResult result;  // result.step: the largest safe step
-  // The share of its gap that every pair reported is sure to keep, once positions are rounded to stored
-  // doubles: the one asked for unless keep_reduced. A gap of less than 2 rounding / (1 - keep) cannot keep it
-  // all: the share is cut, `closest` names the pair, and with a gap below 2 rounding not even the separation
-  // is sure (assured = false): rounding alone can then close it; raise min_separation.
+  // The share of its gap that every pair is sure to keep, once positions are rounded to stored doubles: the one
+  // asked for unless keep_reduced. A gap of less than 2 rounding / (1 - keep) may not keep it all: the share is
+  // cut, and `closest` names the pair. assured: false where a gap has no room for rounding at all, so that the
+  // step is 0 (Outcome::below_rounding); raise min_separation.
   double keep = 0;
   bool keep_reduced = false, assured = true;
   Pair closest;
-  double rounding =
-      0;  // model length: bound on how much storing x_t0 + step dx in doubles changes a distance
+  double rounding = 0;  // StepResult::rounding
 };
 
 // Holds the candidate pairs of x_t0 -> x_t0 + dx (paper, Algorithm 4). Const calls are safe from several

@@ -13,12 +13,14 @@ namespace onset {
 // counts and options out of range throw std::invalid_argument; everything else is an outcome. Safe to call
 // concurrently on one Mesh.
 
-// The largest step that is certainly free of contact (paper, section 7.2). Never later than the exact first
-// contact.
+// The largest step that is certainly free of contact (paper, section 7.2) along the exact motion, and at the positions that
+// it is stored as: see StepResult. x_t0 must be free of intersections (onset/check.hpp); a pair that touches there blocks the
+// step.
 ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_t0,
                                                      const Positions& x_t1, const Options& options = {});
 
-// Whether the whole step is certified free of contact. Stops at the first pair that is not.
+// Whether the whole exact motion, both ends included, is certified free of contact. Stops at the first pair that is not.
+// Pairs that start within the separation and part do not count.
 ONSET_API bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                       const Options& options = {});
 

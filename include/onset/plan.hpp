@@ -17,7 +17,7 @@ struct KindPlan {
   std::int64_t may_meet() const { return pairs - masked - fixed - same_body - adjacent - excluded; }
 };
 
-// Primitives of one kind. What can meet nothing is dropped: it gets no box.
+// Primitives of one kind. What the rules let meet nothing, shared vertices apart, is dropped: it gets no box.
 struct PrimitivePlan {
   std::int64_t moving = 0, fixed = 0;  // that take part; fixed: all vertices are static
   std::int64_t dropped = 0;

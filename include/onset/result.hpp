@@ -22,8 +22,8 @@ enum class Outcome : std::uint8_t {
   initial_separating,  // the same at t = 0, but the motion parts the pair: toi 0, and a step may go on to
                        // step_limit
   budget,              // max_checks spent: free until toi, undecided after
-  // A pair comes, or starts, so close that storing positions in doubles could close its gap: the step ends before
-  // that, at 0 where the gap is too small from the start. StepResult::toi says whether the exact motion touches.
+  // Of a step: a pair comes, or starts, so close that storing positions in doubles could close its gap. The step ends
+  // before that, at 0 where the gap is too small from the start. StepResult::toi says whether the exact motion touches.
   below_rounding,
   non_finite,          // a position is NaN or infinite: step 0, `vertex` names the first
   out_of_range,        // a position is beyond 2^1020 in magnitude: step 0, `vertex` names the first
@@ -92,7 +92,7 @@ struct StepResult {
   // In [0, 1]: x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step] along the exact motion, and at
   // s = step, or any s in [shortest, step], also in whatever order of operations it is rounded to doubles.
   double step = 0;
-  // 0, unless a pair parts from a gap so small that storing the positions of a smaller step could close it.
+  // 0, unless a pair parts from a gap so small that storing the positions of a shorter step could close it.
   double shortest = 0;
   // The earliest contact of the exact motion: never later, infinite where there is none. With
   // CertaintyLevel::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
@@ -104,9 +104,8 @@ struct StepResult {
   Outcome outcome = Outcome::free;
   Pair limiting;    // the pair that limits the step (a = -1 where none does)
   int vertex = -1;  // the offending vertex of non_finite and out_of_range
-  // Of the limiting pair. CertaintyLevel::exact, separation 0: the earliest contact is between step and toi_hi,
-  // which are adjacent doubles or the same one (not after initial_separating, whose next contact is only as certain as
-  // `certainty` says, and toi_hi infinite).
+  // Of the earliest contact of the exact motion, of the limiting pair as a rule; toi_hi: as in ActiveSet, and infinite for the
+  // next contact of a pair that parts at the start.
   Certainty certainty = Certainty::within_tolerance;
   double toi_hi = INFINITY;
   Stats stats;
