@@ -82,7 +82,8 @@ Json step_json(const onset::StepResult& r) {
   Json json = {{"outcome", onset::to_string(r.outcome)}, {"step", r.step},
                {"limiting", to_json(r.limiting)},        {"candidates", to_json(r.stats.candidates)},
                {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance},
-               {"toi", time_json(r.toi)},                {"rounding", r.rounding}};
+               {"toi", time_json(r.toi)},                {"rounding", r.rounding},
+               {"shortest", r.shortest}};
   if (r.limiting.a >= 0) add_certainty(json["limiting"], r.certainty, r.toi_hi);
   if (r.vertex >= 0) json["vertex"] = r.vertex;
   json["stats"] = to_json(r.stats);

@@ -20,7 +20,8 @@ struct ClosePair : Pair {
   // the direction of that sum.
   std::array<double, 4> weights{};
   // The length of that sum: within 2^-47 of the pair's largest corner difference of the exact distance, and
-  // as weights are feasible, shorter by no more than its own rounding.
+  // as weights are feasible, shorter by no more than its own rounding. Where the pair touches it may be as little
+  // more than 0, and then the sum has no direction to speak of.
   double distance = 0;
   // What the pair has to keep: Options::min_separation plus thickness, times sqrt(3) in the maximum norm.
   double separation = 0;

@@ -20,6 +20,9 @@ struct Constraints {
   std::ptrdiff_t rows() const { return std::ptrdiff_t(bound.size()); }
 };
 
+// Rows that are `degenerate` in the set become constraints like all others: where their gap is 0 at the start, the side
+// that they ask for is not known (docs/exactness.md), and leaving them out is the caller's choice.
+//
 // eta: model length, finite; min_separation = eta finds the contacts that come closer than it.
 // full_vertex: empty, or for each vertex of the mesh its id (>= 0) among all vertices of a simulation, which
 // the columns then number (volume meshes: only the surface collides). Throws std::invalid_argument naming the

@@ -255,7 +255,7 @@ class Candidates {
                               const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
     const StepResult r = onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(mesh), vertices_t0,
                                                                 vertices_t1, options_of(min_distance, ccd));
-    return r.outcome == Outcome::free;
+    return r.toi > 1;  // of the exact motion; 0 where the call found out nothing
   }
 
  private:

@@ -88,7 +88,8 @@ class ONSET_API Mesh {
   void set_excluded_bodies(const std::vector<std::array<int, 2>>& pairs);
   void set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs);
 
-  // These very pairs, such as those that check() finds touching at the start: std::vector<Pair>(list.begin(),
+  // These very pairs, in every call and at any distance: they may pass through each other from now on. Such as those that
+  // check() finds touching at the start: std::vector<Pair>(list.begin(),
   // list.end()) makes one of any list of pairs. `vertices` are not looked at. set_points forgets pairs of
   // points.
   void set_excluded_pairs(const std::vector<Pair>& pairs);

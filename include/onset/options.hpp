@@ -76,15 +76,14 @@ struct Options {
   // 0: in the caller's task arena, as it is. n >= 1: at most n threads in an arena of the call.
   int threads = 0;
 
-  // With a separation > 0, contacts are marked certain at level exact only, where a point of each primitive
-  // was found that are no farther apart than that; a line search keeps a separation of its own, and marks
-  // none.
+  // With a separation > 0, contacts after the start are marked certain at level exact only, where a point of each
+  // primitive was found that are no farther apart than that.
   CertaintyLevel certainty = CertaintyLevel::certify;
 
   // A pair whose gap at x_t0 is exactly 0 blocks the step: from which side it came is not in the positions, so a motion
   // that seems to part it may as well push it through. true: such a pair may leave its contact in any direction, as
-  // if that were the side it came from, and what touches within rounding of the start is not looked at. For starts
-  // that are known to touch from the right side only.
+  // if that were the side it came from, and what touches within rounding of the start is not looked at: StepResult::toi
+  // and is_step_collision_free do not count it. For starts that are known to touch from the right side only.
   bool touching_may_pass_through = false;
 
   BroadPhaseMethod broad_phase = BroadPhaseMethod::automatic;

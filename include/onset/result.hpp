@@ -16,7 +16,7 @@ enum class PairKind : std::uint8_t { vertex_face, edge_edge };
 // How a pair, or the whole step, ended. Everything a running solver can produce is one of these, never an
 // exception.
 enum class Outcome : std::uint8_t {
-  free,                // certified: farther apart than the separation for the whole step
+  free,                // certified (a step or set: of all pairs but those that part from within the separation): farther apart than the separation for the whole step
   contact,             // comes within separation + tolerance at toi > 0
   initial_contact,     // touching, or closer than the separation, at t = 0, and not certified to part: toi 0
   initial_separating,  // the same at t = 0, but the motion parts the pair: toi 0, and a step may go on to
@@ -98,8 +98,8 @@ struct StepResult {
   // CertaintyLevel::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
   // 0 where the call ended early and nothing is known.
   double toi = 0;
-  // Model length: bound on how much storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance. A pair
-  // whose gap at x_t0 is more than twice this never gets a step of 0.
+  // Model length: more than storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance (eleven times the bound,
+  // docs/steps.md). A pair whose gap at x_t0 is more than twice this never gets a step of 0.
   double rounding = 0;
   Outcome outcome = Outcome::free;
   Pair limiting;    // the pair that limits the step (a = -1 where none does)
