@@ -21,7 +21,7 @@ struct InitialCase {
   const ExactPair* exact;                       // null: the pair may touch as it parts
 };
 
-// Until `t` the pair never comes closer than it is at t = 0, up to the rounding bound 16u rho; nothing is
+// Until `t` the pair never comes closer than it is at t = 0, up to the rounding of two products, 10u rho; nothing is
 // known after it. apart: at t it is farther apart than d, by `excess`, so advancement can go on from there.
 struct Parting {
   double t = 0;

@@ -13,13 +13,13 @@ struct KernelPairs {
   int count;
   double scale;                // a power of two that brings the scene's largest corner difference near 1
   double tolerance;  // model length
-  double sharpest;   // scaled: the tolerance is at most this share of a pair\'s largest corner difference
+  double sharpest;   // scaled: the tolerance is at most this share of a pair's largest corner difference
   double reach;      // a pair reported at time t within its checks is within what it must keep + reach then, model length
   // Beyond d a pair must also keep this share of its initial gap, in [0, 1), and, where storing > 0, kStoredRoundings times the
   // bound storing * (its largest coordinate) + kStoredLeast, model length; but never more than half of what the share leaves. Then
   // also a pair whose gap is too small for that, or not known well, is `initial`.
   double keep, storing;
-  double cull_beyond;   // model length: at least twice that bound for every pair, for the culls; 0 where storing is 0
+  double cull_beyond;   // model length: kStoredRoundings times that bound for all pairs, for the culls; 0 where storing is 0
   double cull_horizon;  // pairs certified apart until then by the culls, or
   double horizon;       // beyond this time by advancement, may be dropped as free
   bool maximum_norm;  // d is measured in the L-infinity norm

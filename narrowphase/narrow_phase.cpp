@@ -335,7 +335,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
   r.step_limit = parting.t == 1 ? INFINITY : parting.t;
   if (parting.t == 0) r.limit_certainty = r.certainty;
   if (parting.apart && parting.t < 1) {
-    const double floor = 116 * 0x1p-53 * corners.rho;  // 16 E7, as at a start that is apart
+    const double floor = kLeastTolerance * corners.rho;  // as at a start that is apart
     KernelResult later = found;
     later.t = parting.t;
     later.delta = std::max(

@@ -156,11 +156,12 @@ class NarrowPhase {
   void finish_stored(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
                      std::vector<PairResult>& out) const;
   StoredLimit limit_from_start(const Case& c, const Case& exact, NarrowPhaseStats& stats,
-                               std::vector<PairResult>& found) const;
-  StoredLimit limit_of_small_gap(const Case& c, const Corners& corners, const Bounds& start,
-                                 const std::vector<PairResult>& found, NarrowPhaseStats& stats) const;
+                               std::vector<PairResult>& contact) const;
+  StoredLimit limit_of_small_gap(const Case& c, const Corners& corners, const std::vector<PairResult>& contact,
+                                 NarrowPhaseStats& stats) const;
   StoredLimit limit_after_parting(const Case& c, const Corners& corners, const Bounds& start,
                                   NarrowPhaseStats& stats) const;
+  KernelResult limit_from(const Case& c, const Corners& corners, double t, double kept, NarrowPhaseStats& stats) const;
   double clear_time(const Case& c, const Corners& corners, double wanted) const;
   void decide(const Case& c, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
   void note_kept(const Case& c, double share, NarrowPhaseStats& stats) const;

@@ -12,6 +12,9 @@ constexpr double kSharpness = 0.0625;
 // Nor is more given away than this share of the pair's size: hand-made near misses have gaps of 1e-11 of it.
 constexpr double kSharpest = 0x1p-38;
 
+// 16 E7, of rho: advancement tells no less.
+constexpr double kLeastTolerance = 116 * 0x1p-53;
+
 // Of rho: a certificate of a start sees no smaller gap.
 constexpr double kStartNoise = 16 * 0x1p-53;
 

@@ -71,14 +71,17 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   // So it is not where a share of the gap is kept.
   const bool sharper = in_.keep == 0 && (contact.empty() || times_are_exact());
   if (sharper && found.verdict == Verdict::contact && found.t > 0) {
-    found.delta = 116 * 0x1p-53 * corners_of(c).rho;  // 16 E7
+    found.delta = kLeastTolerance * corners_of(c).rho;
     found.verdict = found.checks < c.input.max_checks ? Verdict::stalled : Verdict::budget;
     found = carry_on(c, found, stats, searched);
   }
   const bool free = found.verdict == Verdict::free;
   if (free && limit.from == 0 && contact.empty()) return;
   // A share that would be lost is a contact with what is kept.
-  const Outcome outcome = in_.keep > 0 && found.t > 0 ? Outcome::contact : Outcome::below_rounding;
+  const bool spent = found.verdict == Verdict::budget && found.t > 0 && found.checks >= c.input.max_checks;
+  const Outcome outcome = spent                            ? Outcome::budget
+                          : in_.keep > 0 && found.t > 0 ? Outcome::contact
+                                                        : Outcome::below_rounding;
   PairResult r{c.pair, INFINITY, INFINITY, 0, outcome};
   if (!contact.empty())
     r = contact[0];
@@ -87,6 +90,15 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   r.stored_limit = std::min(free ? INFINITY : found.t, r.step_limit);
   r.clear_from = limit.from;
   out.push_back(r);
+}
+
+// Goes on at time t to the end of this limit.
+KernelResult NarrowPhase::limit_from(const Case& c, const Corners& corners, double t, double kept,
+                                     NarrowPhaseStats& stats) const {
+  const KernelResult found = advance_from(c, corners, bounds_at(c, corners, t), t, kept);
+  stats.checks += found.checks;
+  bool searched = false;
+  return carry_on(c, found, stats, searched);
 }
 
 // The first of some times from which on the pair is beyond `wanted`; infinite where it is at none of them.
@@ -105,10 +117,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
   const double kept = std::min({wanted, 0.5 * (1 + in_.keep) * apart, apart - 2 * kStartNoise * corners.rho});
   if (kept > rounding) {
     note_kept(c, (kept - rounding) / gap, stats);
-    StoredLimit limit{0, advance_from(c, corners, start, 0, kept)};
-    stats.checks += limit.found.checks;
-    bool searched = false;
-    limit.found = carry_on(c, limit.found, stats, searched);
+    const StoredLimit limit{0, limit_from(c, corners, 0, kept, stats)};
     decide(exact, stats, contact);
     return limit;
   }
@@ -122,45 +131,47 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
     return {0, blocked};
   }
   if (outcome == Outcome::initial_separating) return limit_after_parting(c, corners, start, stats);
-  return limit_of_small_gap(c, corners, start, contact, stats);
+  return limit_of_small_gap(c, corners, contact, stats);
 }
 
 // Beyond d at the start by less than storing can close: the step may end where the pair is clear of that.
-NarrowPhase::StoredLimit NarrowPhase::limit_of_small_gap(const Case& c, const Corners& corners, const Bounds& start,
+NarrowPhase::StoredLimit NarrowPhase::limit_of_small_gap(const Case& c, const Corners& corners,
                                                          const std::vector<PairResult>& contact,
                                                          NarrowPhaseStats& stats) const {
-  (void)start;
-  const double d = c.separation() / corners.unit, rounding = storing_rounding(c, corners);
-  const double kept = rounding * (1 + 0x1p-20), clear = clear_time(c, corners, d + kept + 2 * kStartNoise * corners.rho);
+  const double d = c.separation() / corners.unit, kept = storing_rounding(c, corners) * (1 + 0x1p-20);
+  const double clear = clear_time(c, corners, d + kept + 2 * kStartNoise * corners.rho);
+  note_kept(c, 0, stats);
   if (clear > 1 || (!contact.empty() && clear >= contact[0].toi)) {
-    note_kept(c, 0, stats);
     StoredLimit blocked{};
     blocked.found.unit = corners.unit, blocked.found.verdict = Verdict::budget;
     return blocked;
   }
-  StoredLimit limit{clear, advance_from(c, corners, bounds_at(c, corners, clear), clear, kept)};
-  stats.checks += limit.found.checks;
-  bool searched = false;
-  limit.found = carry_on(c, limit.found, stats, searched);
-  return limit;
+  return {clear, limit_from(c, corners, clear, kept, stats)};
 }
 
-// Within d at the start, and parting: its distance does not fall below what it is at the start. Stored, it must not touch.
+// Within d at the start, and parting: its distance does not fall below what it is at the start, but for the noise of a look. Stored, it
+// must not touch: where that is close, the step may end once the pair is clear, and certified to be so until it has parted.
 NarrowPhase::StoredLimit NarrowPhase::limit_after_parting(const Case& c, const Corners& corners, const Bounds& start,
                                                           NarrowPhaseStats& stats) const {
   const double rounding = storing_rounding(c, corners) * (1 + 0x1p-20), d = c.separation() / corners.unit;
-  StoredLimit limit{};
-  if (start.lower <= 2 * rounding) limit.from = clear_time(c, corners, rounding);
+  const double noise = kStartNoise * corners.rho;
   const Parting parting = find_parting_of(c, corners, d, start.lower <= 0 && touches_at_start(c));
+  StoredLimit limit{};
   limit.found.unit = corners.unit, limit.found.t = parting.t;
   limit.found.verdict = parting.t == 1 ? Verdict::free : Verdict::budget;
-  const double apart = parting.excess, kept = std::min(kStoredRoundings * rounding, 0.5 * apart);
-  if (limit.from > 1) limit.found.t = 0;  // never clear
-  if (limit.from > 1 || parting.t == 1 || !parting.apart || kept <= rounding) return limit;
-  limit.found = advance_from(c, corners, bounds_at(c, corners, parting.t), parting.t, kept);
-  stats.checks += limit.found.checks;
-  bool searched = false;
-  limit.found = carry_on(c, limit.found, stats, searched);
+  note_kept(c, 0, stats);
+  if (start.lower <= 2 * rounding + 8 * noise) {
+    limit.from = clear_time(c, corners, rounding + 2 * noise);
+    const bool clears = limit.from < parting.t;
+    const KernelResult clear = clears ? limit_from(c, corners, limit.from, rounding - d, stats) : KernelResult{};
+    if (!clears || (clear.verdict != Verdict::free && clear.t < parting.t)) {
+      limit.from = INFINITY;  // not known to stay clear
+      limit.found.t = 0, limit.found.verdict = Verdict::budget;
+      return limit;
+    }
+  }
+  const double kept = std::min(kStoredRoundings * rounding, 0.5 * parting.excess);
+  if (parting.t < 1 && parting.apart && kept > rounding) limit.found = limit_from(c, corners, parting.t, kept, stats);
   return limit;
 }
 

@@ -35,14 +35,19 @@ bool joined(const MeshData& mesh, int v, int w) {
                             std::array<int, 2>{v, w});
 }
 
-// Whether nothing but their being told apart lets what is at v and w meet.
+// Whether what is at v never meets what is at w: all of it static, in one body that does not meet itself, or in
+// two that pass through each other.
 bool never_meet(const MeshData& mesh, const Use& use, int v, int w) {
   if (!use.meets[std::size_t(v)] && !use.meets[std::size_t(w)]) return true;
   const PrimitiveFilter& filter = *mesh.filter;
   if (!filter.keeps_apart()) return false;
   const auto& keys = filter.keys[std::size_t(Primitive::vertex)];
   const int body = keys[std::size_t(v)].body;
-  return body != 0 && body == keys[std::size_t(w)].body;
+  if (body != 0 && body == keys[std::size_t(w)].body) return true;
+  if (mesh.excluded_bodies.empty()) return false;
+  const int b = mesh.body[std::size_t(v)], c = mesh.body[std::size_t(w)];
+  return std::binary_search(mesh.excluded_bodies.begin(), mesh.excluded_bodies.end(),
+                            std::array<int, 2>{std::min(b, c), std::max(b, c)});
 }
 
 void list_copies(const MeshData& mesh, const Use& use, const Positions& x, StartReport& report) {

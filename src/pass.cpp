@@ -308,7 +308,7 @@ void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, 
   const Limits& limits = pass.limits;
   r.step = upper;
   r.toi = INFINITY;
-  if (limits.contact) {
+  if (limits.contact && limits.contact->result.step_limit <= upper) {
     const PairResult& contact = limits.contact->result;
     r.toi = contact.step_limit;
     r.certainty = contact.limit_certainty;

@@ -25,15 +25,16 @@ constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cos
 // spends its checks, so boxes that are wider by that on [0, horizon] lose none that is reported by then: the result is the minimum of
 // the active set. What the sample found counts whatever the boxes say.
 //
-// Within a window: whatever the sample finds bounds the earliest contact, and the window begins there. A sample out of checks says
-// too little for that.
+// Within a window: whatever the sample finds bounds the earliest contact, and the window begins there. A pair that is out of checks
+// says too little for either: whether its boxes meet by then is another matter.
 double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
                          Budget& budget, Limits& sampled) {
   if (!narrow.uses_horizon()) return 1;
   sampled = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, kSampledBlocks).limits;
   if (!sampled.contact) return 1;
+  sampled.stored = sampled.clear = {};  // the whole finds them
   const PairResult& first = sampled.contact->result;
-  if (keep == Keep::all && first.outcome == Outcome::budget) return 1;
+  if (first.outcome == Outcome::budget) return 1;
   // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
   const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
   const double horizon = keep == Keep::all ? latest_time(first) + options.window : limit;

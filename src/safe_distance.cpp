@@ -9,6 +9,7 @@
 #include "src/checked_options.hpp"
 #include "src/clock.hpp"
 #include "src/held_step.hpp"
+#include "src/places.hpp"
 
 namespace onset {
 namespace {
@@ -50,15 +51,31 @@ double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_
   return safe_step(r, Positions(dx.data(), x_t0.rows()));
 }
 
-// Pairs that are not listed are beyond d_hat of their separation, and close no faster than both of their sides move.
-void bound_others(double d_hat, double moved, double rounding, double keep, StepResult& r) {
-  const auto until = [&](double room) { return std::max(0.0, room) / (2 * moved) * (1 - 0x1p-48); };
-  if (const double contact = until(d_hat - rounding); contact < 1) r.toi = std::min(r.toi, contact);
-  const double bound = until((1 - keep) * d_hat - 2 * rounding);
-  if (bound >= r.step) return;
-  r.step = bound;
-  r.outcome = Outcome::free;
-  r.limiting = Pair{};
+// Pairs that are not listed are beyond d_hat of their separation, and close no faster than both of their sides move: until when they
+// keep `room` of that, all having moved by s `moved`.
+double time_for_others(double room, double moved) {
+  return moved > 0 ? std::max(0.0, room) / (2 * moved) * (1 - 0x1p-48) : INFINITY;
+}
+
+double most_moved(const Motion& motion) {
+  double moved = 0;
+  for (int v = 0; v < motion.num_vertices; ++v) {
+    const double *a = motion.t0(v), *b = motion.t1(v);
+    moved = std::max(moved, std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+  }
+  return moved;
+}
+
+// Of a mesh that welds: the first vertex that is where another one is at the start, and not at the end. Pairs that the two keep apart
+// from each other are in no list of close pairs.
+int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) {
+  if (!mesh.data().weld) return -1;
+  int first = -1;
+  for (const std::vector<int>& here : shared_places(x_t0))
+    for (const int v : here)
+      for (int a = 0; a < 3; ++a)
+        if (x_t1(v, a) != x_t1(here[0], a) && (first < 0 || v < first)) first = v;
+  return first;
 }
 
 }  // namespace
@@ -104,21 +121,23 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     const Motion motion = make_motion(mesh.data().num_vertices, x_t0, x_t1);
     HeldPairs held;
     for (const ClosePair& p : close) held.of(p.kind).push_back({p.a, p.b});
-    r = step_of(mesh, motion, held, options, keep, budget);
+    const double moved = most_moved(motion), rounding = rounding_of_distances(motion);
+    const double bound = time_for_others((1 - keep) * close.d_hat - 2 * rounding, moved);
+    r = step_of(mesh, motion, held, options, keep, budget, std::min(bound, 1.0));
     if (motion.status != Outcome::free) return;
-    if (budget.outcome() != Outcome::free) {
+    if (const int torn = torn_vertex(mesh, x_t0, x_t1); torn >= 0) {
+      r.step = r.shortest = r.toi = 0;
+      r.outcome = Outcome::initial_contact;
+      r.limiting = Pair{};
+      r.vertex = torn;
+    } else if (budget.outcome() != Outcome::free) {
       r.step = step_by_gaps(mesh, x_t0, x_t1, close, keep);
       if (r.step == 1) r.outcome = Outcome::free;
-      r.toi = r.step;
-      r.stats.seconds_total = clock.seconds();
-      return;
+      r.toi = r.step == 1 ? INFINITY : r.step;
+    } else {
+      if (const double contact = time_for_others(close.d_hat - rounding, moved); contact < 1) r.toi = std::min(r.toi, contact);
+      if (r.step == 0 && r.outcome == Outcome::free) r.outcome = Outcome::below_rounding;
     }
-    double moved = 0;
-    for (int v = 0; v < motion.num_vertices; ++v) {
-      const double *a = motion.t0(v), *b = motion.t1(v);
-      moved = std::max(moved, std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
-    }
-    if (moved > 0) bound_others(close.d_hat, moved, rounding_of_distances(motion), keep, r);
     r.stats.seconds_total = clock.seconds();
   });
   return r;

@@ -41,7 +41,8 @@ struct StartReport {
   // than rounding, by (kind, a, b).
   std::vector<ClosePair> within_separation;
   // {first vertex at a place, another one there}, by both; not what Mesh::set_weld or set_excluded_vertices
-  // joins, nor unused vertices. duplicate_vertices() gives what set_excluded_vertices takes.
+  // joins, what never meets (static, in one rigid body, in excluded bodies), nor unused vertices.
+  // duplicate_vertices() gives what set_excluded_vertices takes.
   std::vector<std::array<int, 2>> copied_vertices;
   std::vector<int> faces_without_area;
   std::vector<int> unused_vertices;

@@ -43,7 +43,7 @@ class ONSET_API LineSearch {
   LineSearch& operator=(LineSearch&&) noexcept;
 
   // The largest step in [0, upper] that is free of contact, in exact motion and once rounded to stored
-  // doubles.
+  // doubles. StepResult::toi is infinite where there is no contact up to `upper`.
   LineSearchStep largest_step(double upper = 1) const;
 
   // Every pair whose exact distance at x_t0 + step dx, step in [0, 1], is below d_hat plus its separation,

@@ -17,7 +17,7 @@ enum class PairKind : std::uint8_t { vertex_face, edge_edge };
 // exception.
 enum class Outcome : std::uint8_t {
   free,                // certified (a step or set: of all pairs but those that part from within the separation): farther apart than the separation for the whole step
-  contact,             // comes within separation + tolerance at toi > 0
+  contact,             // comes within separation + tolerance at toi > 0; of a line search: or loses its share of a gap
   initial_contact,     // touching, or closer than the separation, at t = 0, and not certified to part: toi 0
   initial_separating,  // the same at t = 0, but the motion parts the pair: toi 0, and a step may go on to
                        // step_limit
@@ -61,7 +61,7 @@ struct PairCounts {
 struct Stats {
   PairCounts swept;        // pairs whose swept boxes overlap, where the call counted them (candidates)
   PairCounts candidates;   // pairs handed to the narrow phase
-  PairCounts contacts;     // pairs not certified free
+  PairCounts contacts;     // pairs not certified free; of a step: or that storing positions limits
   PairCounts after_culls;  // candidates that the single-precision culls could not separate
   PairCounts inclusion;    // candidates that needed the inclusion root finder
   PairCounts budget;       // candidates that spent max_checks
@@ -174,8 +174,8 @@ struct QueryResult {
   bool collides() const { return outcome != Outcome::free; }
 };
 
-// The pairs whose swept boxes (of the motion, widened by half the separation each) overlap and share no
-// vertex.
+// The pairs whose swept boxes (of the motion, widened by half the separation each, and by half of what storing positions in
+// doubles can change) overlap and share no vertex.
 struct Candidates {
   std::vector<std::array<int, 2>> vertex_face, edge_edge;  // sorted; empty when only counts were asked for
   PairCounts counts;

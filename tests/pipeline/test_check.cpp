@@ -155,6 +155,17 @@ TEST_CASE("the copies of a seam are named, and either call that joins them makes
   mesh.set_excluded_vertices({});
   mesh.set_rigid({true});
   CHECK(check(mesh, seam.x).clean());
+  mesh.set_rigid({false});
+  mesh.set_static(std::vector<bool>(6, true));
+  CHECK(check(mesh, seam.x).clean());
+  mesh.set_static({false, true, true, true, false, true});  // the copies alone
+  CHECK(check(mesh, seam.x).copied_vertices.size() == 2);
+  mesh.set_static(std::vector<bool>(6));
+  mesh.set_bodies(mesh.components());
+  mesh.set_excluded_bodies({{0, 1}});
+  CHECK(check(mesh, seam.x).clean());
+  mesh.set_excluded_bodies({});
+  CHECK(check(mesh, seam.x).copied_vertices.size() == 2);
 }
 
 TEST_CASE("all copies at one place count as one vertex, however many", "[unit]") {
