@@ -28,7 +28,7 @@ StepResult step_of(const Mesh& mesh, const Motion& motion, const HeldPairs& pair
   input.exact_times = options.certainty == CertaintyLevel::exact;
   const PassResult pass = run_pass(pairs, NarrowPhase(input), Keep::limiting, 1, budget);
   copy_counts(pass, r.stats);
-  limit_step(mesh, pass, budget, upper, r);
+  limit_step(mesh, pass, budget, upper, 1, r);
   r.rounding = reported_rounding(input.rounding);
   r.stats.seconds_narrow = clock.seconds();
   return r;

@@ -129,7 +129,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
     Budget budget(h.options);
     const PassResult pass = run_pass(h.source(h.pairs), NarrowPhase(h.input()), Keep::limiting, upper, budget);
     copy_counts(pass, r.result.stats);
-    limit_step(h.mesh, pass, budget, upper, r.result);
+    limit_step(h.mesh, pass, budget, upper, upper, r.result);
     r.result.stats.seconds_narrow = r.result.stats.seconds_total = clock.seconds();
     for (const auto& [kind, stats] :
          {std::pair{PairKind::vertex_face, pass.vertex_face}, {PairKind::edge_edge, pass.edge_edge}}) {

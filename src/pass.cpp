@@ -297,7 +297,8 @@ void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats) {
   if (pair.a >= 0) stats.worst = {kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
 }
 
-void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, StepResult& r) {
+void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, double horizon,
+                StepResult& r) {
   note_worst(mesh, pass, r.stats);
   if (budget.outcome() != Outcome::free) {
     r.step = 0;
@@ -308,14 +309,14 @@ void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, 
   const Limits& limits = pass.limits;
   r.step = upper;
   r.toi = INFINITY;
-  if (limits.contact && limits.contact->result.step_limit <= upper) {
+  if (limits.contact && limits.contact->result.step_limit <= horizon) {
     const PairResult& contact = limits.contact->result;
     r.toi = contact.step_limit;
     r.certainty = contact.limit_certainty;
     if (contact.outcome != Outcome::initial_separating) r.toi_hi = contact.toi_hi;
   }
   const FoundPair* limiting = nullptr;
-  if (limits.stored && limits.stored->result.stored_limit < upper) {
+  if (limits.stored && (limits.stored->result.stored_limit < upper || limits.stored->result.stored_limit == 0)) {
     limiting = &*limits.stored;
     r.step = limiting->result.stored_limit;
     r.outcome = limiting->result.outcome;

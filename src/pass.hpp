@@ -69,7 +69,9 @@ bool earlier(const FoundPair& x, const FoundPair& y);
 void copy_counts(const PassResult& pass, Stats& stats);
 Pair to_pair(const Mesh& mesh, const FoundPair& found);
 void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats);
-// The step in [0, upper], outcome and limiting pair that follow from a pass that kept the limits: none with a spent budget.
-void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, StepResult& result);
+// The step in [0, upper], outcome and limiting pair that follow from a pass up to `horizon` that kept the limits: none with a spent
+// budget.
+void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, double horizon,
+                StepResult& result);
 
 }  // namespace onset

@@ -136,7 +136,6 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
       r.toi = r.step == 1 ? INFINITY : r.step;
     } else {
       if (const double contact = time_for_others(close.d_hat - rounding, moved); contact < 1) r.toi = std::min(r.toi, contact);
-      if (r.step == 0 && r.outcome == Outcome::free) r.outcome = Outcome::below_rounding;
     }
     r.stats.seconds_total = clock.seconds();
   });
