@@ -17,7 +17,7 @@
 namespace onset {
 namespace {
 
-constexpr std::size_t kSampledBlocks = 64;  // one in so many
+constexpr std::size_t kSampledBlocks = 256;  // one in so many
 constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cost more than they spare
 
 // Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that horizon, and the whole is
