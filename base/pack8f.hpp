@@ -43,7 +43,7 @@ struct I8 {
 
 inline F8 load(const float* p) { return {_mm256_loadu_ps(p)}; }
 inline F8 broadcast(const float* p) { return {_mm256_broadcast_ss(p)}; }
-inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
+__attribute__((always_inline)) inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
   return {_mm256_setr_ps(p[0][i], p[1][i], p[2][i], p[3][i], p[4][i], p[5][i], p[6][i], p[7][i])};
 }
 inline void store(float* p, F8 x) { _mm256_storeu_ps(p, x.v); }
@@ -93,7 +93,7 @@ inline void store_interleaved(int* p, I8 a, I8 b) {
 }
 
 // x[i] lane j <- x[j] lane i, for 8 packs.
-inline void transpose(F8* x) {
+__attribute__((always_inline)) inline void transpose(F8* x) {
   __m256 a[8], b[8];
   for (int i = 0; i < 4; ++i) {
     a[2 * i] = _mm256_unpacklo_ps(x[2 * i].v, x[2 * i + 1].v);
@@ -145,7 +145,7 @@ inline F8 broadcast(const float* p) {
   const Float4 x{*p, *p, *p, *p};
   return {x, x};
 }
-inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
+__attribute__((always_inline)) inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
   return {Float4{p[0][i], p[1][i], p[2][i], p[3][i]}, Float4{p[4][i], p[5][i], p[6][i], p[7][i]}};
 }
 inline void store(float* p, F8 x) { __builtin_memcpy(p, &x, sizeof x); }
@@ -201,7 +201,7 @@ inline void store_interleaved(int* p, I8 a, I8 b) {
   for (int i = 0; i < 8; ++i) p[2 * i] = as[i], p[2 * i + 1] = bs[i];
 }
 
-inline void transpose(F8* x) {
+__attribute__((always_inline)) inline void transpose(F8* x) {
   float from[8][8];
   for (int i = 0; i < 8; ++i) store(from[i], x[i]);
   for (int i = 0; i < 8; ++i)
