@@ -17,7 +17,11 @@
 namespace onset {
 namespace {
 
-constexpr std::size_t kSampledBlocks = 256;  // one in so many
+// One block in so many is sampled: fewer of many, as a few hundred tell as much.
+constexpr std::size_t kManyBlocks = 512;
+std::size_t sampled_stride(const BroadPhase& broad) {
+  return broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge) < kManyBlocks ? 64 : 256;
+}
 constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cost more than they spare
 
 // Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that horizon, and the whole is
@@ -30,7 +34,7 @@ constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cos
 double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
                          Budget& budget, Limits& sampled) {
   if (!narrow.uses_horizon()) return 1;
-  sampled = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, kSampledBlocks).limits;
+  sampled = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, sampled_stride(*scene.broad)).limits;
   if (!sampled.contact) return 1;
   sampled.stored = sampled.clear = {};  // the whole finds them
   const PairResult& first = sampled.contact->result;
