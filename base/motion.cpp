@@ -308,12 +308,10 @@ void finish_motion(Motion& m) {
 }
 
 bool is_seam(const Motion& m, PairKind kind, const std::array<int, 4>& vertices) {
-  const std::size_t side = kind == PairKind::vertex_face ? 1 : 2;
-  const auto same = [](const double* x, const double* y) { return x[0] == y[0] && x[1] == y[1] && x[2] == y[2]; };
-  for (std::size_t i = 0; i < side; ++i)
-    for (std::size_t j = side; j < 4; ++j)
-      if (same(m.t0(vertices[i]), m.t0(vertices[j])) && same(m.t1(vertices[i]), m.t1(vertices[j]))) return true;
-  return false;
+  return any_across(points_of_first_side(kind), 4, [&](int i, int j) {
+    const int v = vertices[std::size_t(i)], w = vertices[std::size_t(j)];
+    return at_one_place(m.t0(v), m.t0(w)) && at_one_place(m.t1(v), m.t1(w));
+  });
 }
 
 double rounding_of_distances(const Motion& m) {

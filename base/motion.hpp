@@ -81,7 +81,19 @@ void finish_motion(Motion& m);
 // sqrt(3) times twice that: 10 sqrt(3) u M = 17.4u M; 18.5u covers second order. For the maximum norm it is less.
 inline constexpr double kStoring = 18.5 * 0x1p-53;
 
-// Whether a vertex of one side of a pair is where one of the other is, exactly, at both ends: a seam (MeshData::weld).
+// Whether a point of one side is another one of the other side, MeshData::weld: same(i, j) of those in [0, first) and [first, count).
+template <class Same>
+bool any_across(int first, int count, Same&& same) {
+  for (int i = 0; i < first; ++i)
+    for (int j = first; j < count; ++j)
+      if (same(i, j)) return true;
+  return false;
+}
+inline int points_of_first_side(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
+// Exactly, zeros of either sign alike.
+inline bool at_one_place(const double* x, const double* y) { return x[0] == y[0] && x[1] == y[1] && x[2] == y[2]; }
+
+// Whether a vertex of one side of a pair is where one of the other is at both ends: a seam.
 bool is_seam(const Motion& m, PairKind kind, const std::array<int, 4>& vertices);
 
 // Model length: that bound of the change of a distance, for all pairs.

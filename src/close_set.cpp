@@ -28,15 +28,6 @@ double separation_of(const CloseInput& in, const Pair& pair) {
   return ratio * (in.options.min_separation + thickness) * (1 + 0x1p-50);
 }
 
-// Whether a point of one side is where one of the other is: MeshData::weld, at rest.
-bool is_seam(PairKind kind, const double* const (&x)[4]) {
-  const int side = kind == PairKind::vertex_face ? 1 : 2;
-  for (int i = 0; i < side; ++i)
-    for (int j = side; j < 4; ++j)
-      if (x[i][0] == x[j][0] && x[i][1] == x[j][1] && x[i][2] == x[j][2]) return true;
-  return false;
-}
-
 struct Task {
   const CloseInput& in;
   PairKind kind;
@@ -49,7 +40,8 @@ struct Task {
     static_cast<Pair&>(p) = {kind, ids.a, ids.b, pair_vertices(in.mesh.data(), kind, ids)};
     const double* x[4];
     for (std::size_t i = 0; i < 4; ++i) x[i] = in.x + 4 * std::size_t(p.vertices[i]);
-    if (in.mesh.data().weld && is_seam(kind, x)) return;
+    const auto same = [&](int i, int j) { return at_one_place(x[i], x[j]); };
+    if (in.mesh.data().weld && any_across(points_of_first_side(kind), 4, same)) return;
     const ClosestPoints at = closest_points(kind, x);
     p.separation = separation_of(in, p);
     const double gap = at.lower - p.separation;

@@ -32,13 +32,11 @@ class Near {
   }
 
   // find_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as
-  // much.
+  // much; but for what is welded.
   void look(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     for (const ClosePair& p : find_close(Batch(kind, pairs, count), {mesh_, x_.data(), 0, 0, options_})) {
-      const int *v = p.vertices.data(), side = kind == PairKind::vertex_face ? 1 : 2;
-      if (mesh_.data().weld && share_place(motion_, v, v + side, v + side, v + 4)) continue;
       const double* x[4];
-      for (std::size_t i = 0; i < 4; ++i) x[i] = motion_.t0(v[i]);
+      for (std::size_t i = 0; i < 4; ++i) x[i] = motion_.t0(p.vertices[i]);
       const bool touches = exactly_touches({kind, {x[0], x[1], x[2], x[3]}, {x[0], x[1], x[2], x[3]}});
       if (touches || (p.separation > 0 && within(p, x))) found.push_back({p, touches});
     }

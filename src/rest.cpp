@@ -22,14 +22,4 @@ void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& b
   broad = make_broad_phase(options.broad_phase, input);
 }
 
-bool share_place(const Motion& motion, const int* first, const int* first_end, const int* second,
-                 const int* second_end) {
-  for (; first != first_end; ++first)
-    for (const int* other = second; other != second_end; ++other) {
-      const double *x = motion.t0(*first), *y = motion.t0(*other);
-      if (x[0] == y[0] && x[1] == y[1] && x[2] == y[2]) return true;
-    }
-  return false;
-}
-
 }  // namespace onset

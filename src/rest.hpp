@@ -30,9 +30,4 @@ struct Rest {
   }
 };
 
-// Whether a vertex of one side is exactly where one of the other side is: with Mesh::set_weld they count as
-// one.
-bool share_place(const Motion& motion, const int* first, const int* first_end, const int* second,
-                 const int* second_end);
-
 }  // namespace onset
