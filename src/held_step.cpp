@@ -21,15 +21,12 @@ StepResult step_of(const Mesh& mesh, const Motion& motion, const HeldPairs& pair
   if (r.outcome != Outcome::free) return r;
   describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options,
                     r.stats);
-  NarrowPhaseInput input{data, motion, r.stats.tolerance, r.stats.extent, options};
-  input.stored = true;
-  input.keep = keep;
-  input.rounding = rounding_of_distances(motion);
-  input.exact_times = options.certainty == CertaintyLevel::exact;
-  const PassResult pass = run_pass(pairs, NarrowPhase(input), Keep::limiting, 1, budget);
+  const double rounding = rounding_of_distances(motion);
+  const NarrowPhase narrow(stored_step_input(data, motion, r.stats, options, keep, rounding));
+  const PassResult pass = run_pass(pairs, narrow, Keep::limiting, 1, budget);
   copy_counts(pass, r.stats);
   limit_step(mesh, pass, budget, upper, 1, r);
-  r.rounding = reported_rounding(input.rounding);
+  r.rounding = reported_rounding(rounding);
   r.stats.seconds_narrow = clock.seconds();
   return r;
 }

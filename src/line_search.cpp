@@ -46,12 +46,7 @@ struct LineSearch::Held {
   HeldPairs pairs, near;         // that may limit a step; that may come within d_hat on the way
 
   NarrowPhaseInput input() const {
-    NarrowPhaseInput r{mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, options};
-    r.stored = true;
-    r.keep = keep;
-    r.rounding = rounding;
-    r.exact_times = options.certainty == CertaintyLevel::exact;
-    return r;
+    return stored_step_input(mesh.data(), scene->motion, start.stats, options, keep, rounding);
   }
   bool fill(Budget& budget);
   const PairSource& source(const HeldPairs& held) const {

@@ -270,6 +270,16 @@ PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep kee
   return result;
 }
 
+NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Stats& stats,
+                                   const Options& options, double keep, double rounding) {
+  NarrowPhaseInput r{mesh, motion, stats.tolerance, stats.extent, options};
+  r.stored = true;
+  r.keep = keep;
+  r.rounding = rounding;
+  r.exact_times = options.certainty == CertaintyLevel::exact;
+  return r;
+}
+
 void copy_counts(const PassResult& pass, Stats& stats) {
   const auto both = [&](std::int64_t NarrowPhaseStats::*field) {
     return PairCounts{pass.vertex_face.*field, pass.edge_edge.*field};

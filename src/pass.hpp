@@ -60,6 +60,10 @@ struct PassBounds {
 PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
                     Budget& budget, std::size_t stride = 1, const PassBounds& bounds = {});
 
+// For steps that are stored, of pairs that each keep the share `keep` of their gap. rounding: rounding_of_distances(motion).
+NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Stats& stats,
+                                   const Options& options, double keep, double rounding);
+
 // When a pair that is reported has surely touched, as far as is known: exact times may move a toi up to there.
 inline double latest_time(const PairResult& r) { return r.certainty == Certainty::certain ? r.toi_hi : r.toi; }
 
