@@ -32,12 +32,6 @@ Vec square_to(const Vec& e) {
   return dot(n, n) > 0 ? unit(n) : axis;
 }
 
-ExactPair exact_pair(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices) {
-  ExactPair r{kind, {}, {}};
-  for (std::size_t i = 0; i < 4; ++i) r.t0[i] = motion.t0(vertices[i]), r.t1[i] = motion.t1(vertices[i]);
-  return r;
-}
-
 double coordinate(const double (&weights)[4], PairKind kind) {  // U
   return kind == PairKind::vertex_face ? -weights[2] : weights[1];
 }
@@ -111,12 +105,6 @@ class Touching {
   const bool odd_axes_;
   Vec across_{};  // a x b
 };
-
-bool rests(const ExactPair& pair) {
-  for (int i = 0; i < 4; ++i)
-    if (!std::equal(pair.t0[i], pair.t0[i] + 3, pair.t1[i])) return false;
-  return true;
-}
 
 // Lengths in units of the pair.
 struct Frame {

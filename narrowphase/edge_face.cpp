@@ -12,7 +12,6 @@ namespace onset {
 namespace {
 
 Vec point(const double* p) { return {{p[0], p[1], p[2]}}; }
-double largest(const Vec& a) { return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2])); }
 
 // The sign of a number within `bound` of x; 0: open, as where x or the bound is not finite.
 int certain_sign(double x, double bound) {
@@ -33,12 +32,12 @@ double volume_bound(double A, double B, double C) { return 0x1p-46 * ((A * B + 0
 // below 3 ((1 + u)^4 - 1) |m| |p - q| < 13u |m| |p - q| with the largest coordinates, and 3 2^-1075 where
 // products underflow.
 bool separates(const Vec& m, const Vec* p, int p_count, const Vec* q, int q_count) {
-  const double size = largest(m);
+  const double size = largest_component(m);
   int side = 0;
   for (int i = 0; i < p_count; ++i)
     for (int j = 0; j < q_count; ++j) {
       const Vec d = p[i] - q[j];
-      const int s = certain_sign(dot(m, d), 0x1p-48 * (size * largest(d)) + 0x1p-1070);
+      const int s = certain_sign(dot(m, d), 0x1p-48 * (size * largest_component(d)) + 0x1p-1070);
       if (s == 0 || s == -side) return false;
       side = s;
     }
@@ -56,8 +55,8 @@ constexpr Quick kOpen{false, EdgeFace::apart}, kApart{true, EdgeFace::apart};
 // one side.
 Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   const Vec d = e[1] - e[0], r[3] = {f[0] - e[0], f[1] - e[0], f[2] - e[0]};
-  const double R = std::max(std::max(largest(r[0]), largest(r[1])), largest(r[2]));
-  const double bound = volume_bound(R, R, largest(d));
+  const double R = std::max(std::max(largest_component(r[0]), largest_component(r[1])), largest_component(r[2]));
+  const double bound = volume_bound(R, R, largest_component(d));
   int positive = 0, negative = 0;
   for (int i = 0; i < 3; ++i) {
     const int s = certain_sign(dot(cross(r[i], r[(i + 1) % 3]), d), bound);
@@ -80,7 +79,7 @@ Quick quick_answer(const EdgeAndFace& pair) {
   const Vec f[3] = {point(pair.f[0]), point(pair.f[1]), point(pair.f[2])};
   const Vec a = f[1] - f[0], b = f[2] - f[0], c0 = e[0] - f[0], c1 = e[1] - f[0];
   const Vec n = cross(a, b);
-  const double bound = volume_bound(largest(a), largest(b), std::max(largest(c0), largest(c1)));
+  const double bound = volume_bound(largest_component(a), largest_component(b), std::max(largest_component(c0), largest_component(c1)));
   const int s0 = certain_sign(dot(n, c0), bound), s1 = certain_sign(dot(n, c1), bound);
   if (s0 * s1 > 0) return kApart;
   if (s0 * s1 < 0) return through(e, f);
@@ -138,7 +137,7 @@ EdgeFace edge_face(const EdgeAndFace& pair) {
 bool exactly_collinear(const double* p, const double* q, const double* r) {
   const Vec a = point(q) - point(p), b = point(r) - point(p), n = cross(a, b);
   // Relative to the exact terms |a_i b_j| a product carries 4 roundings, and underflow adds 2^-1075 to each.
-  const double bound = 0x1p-49 * (largest(a) * largest(b)) + 0x1p-1070;
+  const double bound = 0x1p-49 * (largest_component(a) * largest_component(b)) + 0x1p-1070;
   for (int k = 0; k < 3; ++k)
     if (certain_sign(n[k], bound) != 0) return false;
   Grid grid;

@@ -1,8 +1,11 @@
 // A pair's positions as integers, and the form that both kinds share.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
+#include "base/motion.hpp"
 #include "onset/result.hpp"
 
 namespace onset {
@@ -13,6 +16,24 @@ struct ExactPair {
   const double* t0[4];
   const double* t1[4];
 };
+
+// vertices[0..3] of a motion.
+template <class Vertices>
+ExactPair exact_pair(PairKind kind, const Motion& motion, const Vertices& vertices) {
+  ExactPair r{kind, {}, {}};
+  for (int i = 0; i < 4; ++i) {
+    const int v = *(std::begin(vertices) + i);
+    r.t0[i] = motion.t0(v), r.t1[i] = motion.t1(v);
+  }
+  return r;
+}
+
+// Whether neither primitive moves.
+inline bool rests(const ExactPair& pair) {
+  for (int i = 0; i < 4; ++i)
+    if (!std::equal(pair.t0[i], pair.t0[i] + 3, pair.t1[i])) return false;
+  return true;
+}
 
 enum class Answer { no, yes, unknown };
 

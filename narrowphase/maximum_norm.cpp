@@ -15,7 +15,7 @@ class Best {
 
   void consider(const Precise& direction) {
     Vec w = rounded(direction);
-    const double size = std::max({std::fabs(w[0]), std::fabs(w[1]), std::fabs(w[2])});
+    const double size = largest_component(w);
     if (!(size > 0x1p-400)) return;
     w = std::ldexp(1.0, -std::ilogb(size)) * w;
     const Precise exact{{w[0], w[1], w[2]}};

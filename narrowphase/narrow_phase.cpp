@@ -153,15 +153,11 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   const KernelPairs input = prepare(kind, pairs, count, horizon, scratch);
   const int survivors = cull(kind, input, scratch);
   scratch.results.resize(std::size_t(survivors));
-  const auto advance =
-      kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
-  advance(input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
+  advance(kind, input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
   if (in_.stored) {
     advance_exactly(kind, input, survivors, scratch);
   } else if (in_.options.certainty != CertaintyLevel::conservative) {
-    const auto certify =
-        kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
-    certify(input, scratch.survivors.data(), survivors, scratch.results.data());
+    certify(kind, input, scratch.survivors.data(), survivors, scratch.results.data());
   }
   scratch.stats.candidates += std::int64_t(count);
   scratch.stats.after_culls += survivors;
@@ -194,9 +190,7 @@ void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int s
   }
   if (scratch.asked.empty()) return;
   scratch.exact_results.resize(scratch.asked.size());
-  const auto advance =
-      kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
-  advance(without_storing(input, input.horizon), scratch.asked.data(), int(scratch.asked.size()), nullptr,
+  advance(kind, without_storing(input, input.horizon), scratch.asked.data(), int(scratch.asked.size()), nullptr,
           scratch.exact_results.data());
   for (std::size_t k = 0; k < scratch.asked.size(); ++k)
     scratch.touches[std::size_t(scratch.places[k])] = scratch.exact_results[k].verdict != Verdict::free;
@@ -210,10 +204,20 @@ double NarrowPhase::distance_at(const Case& c, double t) const {
 
 Corners NarrowPhase::corners_of(const Case& c) const { return make_corners(c.kind, in_.motion, c.vertices()); }
 
+void NarrowPhase::advance(PairKind kind, const KernelPairs& pairs, const int* rows, int count,
+                          const KernelResume* resume, KernelResult* results) const {
+  const auto of_kind =
+      kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
+  of_kind(pairs, rows, count, resume, results);
+}
 void NarrowPhase::advance(const Case& c, const KernelResume* resume, KernelResult& result) const {
-  const auto advance =
-      c.kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
-  advance(c.input, &c.row, 1, resume, &result);
+  advance(c.kind, c.input, &c.row, 1, resume, &result);
+}
+void NarrowPhase::certify(PairKind kind, const KernelPairs& pairs, const int* rows, int count,
+                          KernelResult* results) const {
+  const auto of_kind =
+      kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
+  of_kind(pairs, rows, count, results);
 }
 
 // A pair that crawls: certify an interval and go on, or go on regardless for a while. Real contacts of
@@ -271,13 +275,16 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   KernelResult found = checked;
   PairResult r{c.pair, 0, 0, 0, Outcome::contact};
   const double d = found.separation;
+  Corners corners;
+  Bounds start{};
   if (found.verdict == Verdict::initial) {
     if (is_welded(c)) return;
-    if (const Corners corners = corners_of(c); d > 0)
-      if (const Bounds start = bounds_at(c, corners, 0); start.lower - d > kStartNoise * corners.rho) {
-        found = advance_from(c, corners, start, 0, 0);
-        stats.checks += found.checks - checked.checks;
-      }
+    corners = corners_of(c);
+    if (d > 0) start = bounds_at(c, corners, 0);
+    if (d > 0 && start.lower - d > kStartNoise * corners.rho) {
+      found = advance_from(c, corners, start, 0, 0);
+      stats.checks += found.checks - checked.checks;
+    }
   }
   // What stalls is asked first whether it touches at all: that takes less than to find out in doubles.
   ExactAnswer truth{Answer::unknown, {}};
@@ -290,7 +297,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   if (truth.answer == Answer::no) return;
   const bool real = truth.answer == Answer::yes;
   if (found.verdict == Verdict::initial && !(real && truth.time.lo > 0))
-    return finish_initial(c, corners_of(c), found, truth, stats, out);
+    return finish_initial(c, corners, d > 0 ? start : bounds_at(c, corners, 0), found, truth, stats, out);
   const bool later =
       real && truth.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
   if (later) found.t = truth.time.lo;
@@ -314,11 +321,10 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
 
 // Touching or closer than d at the start. From which side a pair came that touches is not known: it blocks the step, unless
 // the caller says otherwise. Where the motion parts the others the step goes on, to the next contact if there is one.
-void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const KernelResult& found,
-                                 const ExactAnswer& truth, NarrowPhaseStats& stats,
+void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Bounds& start,
+                                 const KernelResult& found, const ExactAnswer& truth, NarrowPhaseStats& stats,
                                  std::vector<PairResult>& out) const {
   const double d = found.separation;
-  const Bounds start = bounds_at(c, corners, 0);
   PairResult r{c.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
                Outcome::initial_contact};
   const bool touching =
@@ -330,7 +336,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Ke
   if (touching) r.toi_hi = 0;
   if (truth.answer == Answer::yes) r.toi_hi = truth.time.hi;
   Parting parting;
-  if (!touching || in_.options.touching_may_pass_through) parting = find_parting_of(c, corners, d, touching);
+  if (!touching || in_.options.touching_may_pass_through) parting = find_parting_of(c, corners, start, d, touching);
   if (parting.t > 0) r.outcome = Outcome::initial_separating;
   r.step_limit = parting.t == 1 ? INFINITY : parting.t;
   if (parting.t == 0) r.limit_certainty = r.certainty;

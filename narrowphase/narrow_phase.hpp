@@ -125,14 +125,17 @@ class NarrowPhase {
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   Corners corners_of(const Case& c) const;
   double distance_at(const Case& c, double t) const;  // scaled upper bound
+  void advance(PairKind kind, const KernelPairs& pairs, const int* rows, int count, const KernelResume* resume,
+               KernelResult* results) const;
   void advance(const Case& c, const KernelResume* resume, KernelResult& result) const;
+  void certify(PairKind kind, const KernelPairs& pairs, const int* rows, int count, KernelResult* results) const;
   KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
   KernelResult carry_on(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats, bool& searched) const;
 
   // Exact arithmetic (settle.cpp).
   bool settles(const Case& c) const;  // whether it is asked at all
   bool settles_completely(const Case& c) const;
-  ExactPair exact_pair(PairKind kind, const int (&vertices)[4]) const;
+  ExactPair exact_pair_of(const Case& c) const;
   ExactAnswer settle(const Case& c, const KernelResult& found, double from) const;
   bool touches_at_start(const Case& c) const;
   bool seen_within_separation(const Case& c, const KernelResult& found) const;
@@ -140,14 +143,14 @@ class NarrowPhase {
   // The exact motion of one pair, which is apart, or parting, until `from`.
   void finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
               std::vector<PairResult>& out) const;
-  void finish_initial(const Case& c, const Corners& corners, const KernelResult& found, const ExactAnswer& truth,
-                      NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+  void finish_initial(const Case& c, const Corners& corners, const Bounds& start, const KernelResult& found,
+                      const ExactAnswer& truth, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
 
   // Its start (pair_start.cpp).
   bool is_welded(const Case& c) const;
-  bool stays(const Case& c) const;  // neither primitive moves
   Bounds bounds_at(const Case& c, const Corners& corners, double t) const;
-  Parting find_parting_of(const Case& c, const Corners& corners, double separation, bool touching) const;
+  Parting find_parting_of(const Case& c, const Corners& corners, const Bounds& start, double separation,
+                          bool touching) const;
   KernelResult advance_from(const Case& c, const Corners& corners, const Bounds& at, double t, double kept) const;
 
   // Steps that are stored (stored_step.cpp).
@@ -161,7 +164,8 @@ class NarrowPhase {
                                  NarrowPhaseStats& stats) const;
   StoredLimit limit_after_parting(const Case& c, const Corners& corners, const Bounds& start,
                                   NarrowPhaseStats& stats) const;
-  KernelResult limit_from(const Case& c, const Corners& corners, double t, double kept, NarrowPhaseStats& stats) const;
+  KernelResult limit_from(const Case& c, const Corners& corners, const Bounds& at, double t, double kept,
+                          NarrowPhaseStats& stats) const;
   double clear_time(const Case& c, const Corners& corners, double wanted) const;
   void decide(const Case& c, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
   void note_kept(const Case& c, double share, NarrowPhaseStats& stats) const;

@@ -40,19 +40,12 @@ bool NarrowPhase::is_welded(const Case& c) const {
   return in_.mesh.weld && is_seam(in_.motion, c.kind, {v[0], v[1], v[2], v[3]});
 }
 
-bool NarrowPhase::stays(const Case& c) const {
-  for (const int v : c.vertices())
-    for (int a = 0; a < 3; ++a)
-      if (in_.motion.t0(v)[a] != in_.motion.t1(v)[a]) return false;
-  return true;
-}
-
 NarrowPhase::Bounds NarrowPhase::bounds_at(const Case& c, const Corners& corners, double t) const {
   Bounds r{};
-  const ExactPair pair = exact_pair(c.kind, c.vertices());
+  const ExactPair pair = exact_pair_of(c);
   if (c.input.maximum_norm) {
     r.w = best_direction_in_maximum_norm(PreciseMotion(c.kind, pair.t0, pair.t1).at(t));
-    const double size = std::fabs(r.w[0]) + std::fabs(r.w[1]) + std::fabs(r.w[2]);
+    const double size = sum_of_magnitudes(r.w);
     r.lower = size > 0 ? (least(corners, t, r.w) - 8 * kU * corners.rho) / size * (1 - 0x1p-49) : 0;
     // The best direction shows all of the distance (duality): the bound is off by its own rounding and that of w.
     r.upper = r.lower > 0 ? r.lower + 32 * kU * corners.rho : distance_at(c, t);
@@ -66,9 +59,12 @@ NarrowPhase::Bounds NarrowPhase::bounds_at(const Case& c, const Corners& corners
   return r;
 }
 
-Parting NarrowPhase::find_parting_of(const Case& c, const Corners& corners, double separation, bool touching) const {
-  const ExactPair exact = exact_pair(c.kind, c.vertices());
-  const std::function<Vec(double)> direction = [&](double t) { return bounds_at(c, corners, t).w; };
+Parting NarrowPhase::find_parting_of(const Case& c, const Corners& corners, const Bounds& start, double separation,
+                                     bool touching) const {
+  const ExactPair exact = exact_pair_of(c);
+  const std::function<Vec(double)> direction = [&](double t) {
+    return t == 0 ? start.w : bounds_at(c, corners, t).w;
+  };
   return find_parting({corners, c.input, c.row, c.kind, separation, direction, touching ? nullptr : &exact});
 }
 
@@ -79,8 +75,7 @@ KernelResult NarrowPhase::advance_from(const Case& c, const Corners& corners, co
   const double e7 = 7.25 * kU * corners.rho, unit = corners.unit, d = c.separation() / unit + kept;
   const double apart = at.lower - d;
   const double delta = std::max(std::min({c.input.tolerance / unit, c.input.sharpest, 0.25 * apart}), 16 * e7);
-  const double norm =
-      c.input.maximum_norm ? std::fabs(at.w[0]) + std::fabs(at.w[1]) + std::fabs(at.w[2]) : 1;
+  const double norm = c.input.maximum_norm ? sum_of_magnitudes(at.w) : 1;
   double until = certified_until(corners, at.w, norm, d + 0.5 * delta, t);
   if (until == t) until = certified_until(corners, at.w, norm, d, t);
   KernelResult r{};

@@ -13,24 +13,20 @@ bool NarrowPhase::settles_completely(const Case& c) const {
   return settles(c) && in_.options.certainty == CertaintyLevel::exact;
 }
 
-ExactPair NarrowPhase::exact_pair(PairKind kind, const int (&vertices)[4]) const {
-  ExactPair r{kind, {}, {}};
-  for (int i = 0; i < 4; ++i) r.t0[i] = in_.motion.t0(vertices[i]), r.t1[i] = in_.motion.t1(vertices[i]);
-  return r;
-}
+ExactPair NarrowPhase::exact_pair_of(const Case& c) const { return exact_pair(c.kind, in_.motion, c.vertices()); }
 
 // unknown: not asked, or too dear. Contacts before `from` > 0 do not count. Within rounding of touching at the
 // start, doubles cannot tell a contact soon after from parting: those are asked whatever the certainty.
 ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double from) const {
   if (found.verdict == Verdict::initial && from == 0 && c.separation() == 0) {
-    const auto time = exact_first_contact(exact_pair(c.kind, c.input.vertices[c.row]));
+    const auto time = exact_first_contact(exact_pair_of(c));
     return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
   }
   if (!settles(c)) return {Answer::unknown, {}};
   const bool complete = settles_completely(c);
   if (!complete && found.verdict == Verdict::budget)
     return {Answer::unknown, {}};  // as little as was asked for
-  const ExactPair pair = exact_pair(c.kind, c.input.vertices[c.row]);
+  const ExactPair pair = exact_pair_of(c);
   if (from > 0) {
     if (!complete) return {Answer::unknown, {}};
     return {exactly_touches(pair, from) ? Answer::yes : Answer::no, {from, INFINITY}};
@@ -49,7 +45,7 @@ ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double
 
 // Both primitives where they start.
 bool NarrowPhase::touches_at_start(const Case& c) const {
-  ExactPair pair = exact_pair(c.kind, c.vertices());
+  ExactPair pair = exact_pair_of(c);
   std::copy_n(pair.t0, 4, pair.t1);
   return exactly_touches(pair);
 }
@@ -59,7 +55,7 @@ void NarrowPhase::sharpen(PairKind kind, PairResult& result) const {
   const KernelPairs one = prepare(kind, &result.pair, 1, {}, scratch);
   const Case c{kind, result.pair, one, 0};
   if (!settles_completely(c)) return;
-  const auto time = exact_first_contact(exact_pair(kind, c.vertices()));
+  const auto time = exact_first_contact(exact_pair_of(c));
   if (!time) return;
   if (result.outcome == Outcome::contact) result.toi = result.step_limit = time->lo;
   result.toi_hi = time->hi;

@@ -34,11 +34,7 @@ void NarrowPhase::decide(const Case& c, NarrowPhaseStats& stats, std::vector<Pai
   KernelResult r;
   advance(c, nullptr, r);
   if (r.verdict == Verdict::free) return;
-  if (in_.options.certainty != CertaintyLevel::conservative) {
-    const auto certify =
-        c.kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
-    certify(c.input, &c.row, 1, &r);
-  }
+  if (in_.options.certainty != CertaintyLevel::conservative) certify(c.kind, c.input, &c.row, 1, &r);
   if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) r.checks = 0;
   stats.checks += r.checks;
   finish(c, r, 0, stats, out);
@@ -92,10 +88,10 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   out.push_back(r);
 }
 
-// Goes on at time t to the end of this limit.
-KernelResult NarrowPhase::limit_from(const Case& c, const Corners& corners, double t, double kept,
+// Goes on at time t, where it is as `at` says, to the end of this limit.
+KernelResult NarrowPhase::limit_from(const Case& c, const Corners& corners, const Bounds& at, double t, double kept,
                                      NarrowPhaseStats& stats) const {
-  const KernelResult found = advance_from(c, corners, bounds_at(c, corners, t), t, kept);
+  const KernelResult found = advance_from(c, corners, at, t, kept);
   stats.checks += found.checks;
   bool searched = false;
   return carry_on(c, found, stats, searched);
@@ -117,7 +113,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
   const double kept = std::min({wanted, 0.5 * (1 + in_.keep) * apart, apart - 2 * kStartNoise * corners.rho});
   if (kept > rounding) {
     note_kept(c, (kept - rounding) / gap, stats);
-    const StoredLimit limit{0, limit_from(c, corners, 0, kept, stats)};
+    const StoredLimit limit{0, limit_from(c, corners, start, 0, kept, stats)};
     decide(exact, stats, contact);
     return limit;
   }
@@ -126,7 +122,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
   KernelResult blocked{};
   blocked.unit = corners.unit, blocked.verdict = Verdict::budget;
   if (outcome == Outcome::initial_contact) return {0, blocked};
-  if (stays(c)) {  // nothing is rounded
+  if (rests(exact_pair_of(c))) {  // nothing is rounded
     blocked.verdict = Verdict::free;
     return {0, blocked};
   }
@@ -146,7 +142,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_of_small_gap(const Case& c, const Co
     blocked.found.unit = corners.unit, blocked.found.verdict = Verdict::budget;
     return blocked;
   }
-  return {clear, limit_from(c, corners, clear, kept, stats)};
+  return {clear, limit_from(c, corners, bounds_at(c, corners, clear), clear, kept, stats)};
 }
 
 // Within d at the start, and parting: its distance does not fall below what it is at the start, but for the noise of a look. Stored, it
@@ -155,7 +151,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_after_parting(const Case& c, const C
                                                           NarrowPhaseStats& stats) const {
   const double rounding = storing_rounding(c, corners) * (1 + 0x1p-20), d = c.separation() / corners.unit;
   const double noise = kStartNoise * corners.rho;
-  const Parting parting = find_parting_of(c, corners, d, start.lower <= 0 && touches_at_start(c));
+  const Parting parting = find_parting_of(c, corners, start, d, start.lower <= 0 && touches_at_start(c));
   StoredLimit limit{};
   limit.found.unit = corners.unit, limit.found.t = parting.t;
   limit.found.verdict = parting.t == 1 ? Verdict::free : Verdict::budget;
@@ -163,7 +159,9 @@ NarrowPhase::StoredLimit NarrowPhase::limit_after_parting(const Case& c, const C
   if (start.lower <= 2 * rounding + 8 * noise) {
     limit.from = clear_time(c, corners, rounding + 2 * noise);
     const bool clears = limit.from < parting.t;
-    const KernelResult clear = clears ? limit_from(c, corners, limit.from, rounding - d, stats) : KernelResult{};
+    KernelResult clear{};
+    if (clears)
+      clear = limit_from(c, corners, bounds_at(c, corners, limit.from), limit.from, rounding - d, stats);
     if (!clears || (clear.verdict != Verdict::free && clear.t < parting.t)) {
       limit.from = INFINITY;  // not known to stay clear
       limit.found.t = 0, limit.found.verdict = Verdict::budget;
@@ -171,7 +169,8 @@ NarrowPhase::StoredLimit NarrowPhase::limit_after_parting(const Case& c, const C
     }
   }
   const double kept = std::min(kStoredRoundings * rounding, 0.5 * parting.excess);
-  if (parting.t < 1 && parting.apart && kept > rounding) limit.found = limit_from(c, corners, parting.t, kept, stats);
+  if (parting.t < 1 && parting.apart && kept > rounding)
+    limit.found = limit_from(c, corners, bounds_at(c, corners, parting.t), parting.t, kept, stats);
   return limit;
 }
 

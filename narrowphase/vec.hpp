@@ -2,6 +2,7 @@
 // kernels' order.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace onset {
@@ -36,6 +37,10 @@ VecOf<T> cross(const VecOf<T>& a, const VecOf<T>& b) {
   return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
 }
 inline Vec vec(const double (&p)[3]) { return {{p[0], p[1], p[2]}}; }
+inline double largest_component(const Vec& a) {
+  return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2]));
+}
+inline double sum_of_magnitudes(const Vec& a) { return std::fabs(a[0]) + std::fabs(a[1]) + std::fabs(a[2]); }
 // a / |a|, or 0.
 inline Vec unit(const Vec& a) {
   const double n = std::sqrt(dot(a, a));

@@ -8,8 +8,6 @@
 namespace onset {
 namespace {
 
-double largest(const Vec& a) { return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2])); }
-
 // The differences of the two primitives: a triangle or a parallelogram, and the cube of half width d, scaled
 // so that none is above 4 and differences do not overflow. What underflows is off by 2^-1074, far less than
 // rounding counts for here.
@@ -36,13 +34,13 @@ struct Differences {
   // Whether the polygon is beyond the cube in direction m (any doubles), which reaches d |m|_1. A term of the
   // product carries 4 roundings, the reach 4: below 13u |m| |corner| + 5u d |m|_1 in the largest coordinates.
   bool beyond(const Vec& m) const {
-    const double reach = d * (std::fabs(m[0]) + std::fabs(m[1]) + std::fabs(m[2]));
+    const double reach = d * sum_of_magnitudes(m);
     double least = INFINITY, most = -INFINITY, farthest = 0;
     for (int i = 0; i < count; ++i) {
       const double h = dot(m, corner[i]);
-      least = std::min(least, h), most = std::max(most, h), farthest = std::max(farthest, largest(corner[i]));
+      least = std::min(least, h), most = std::max(most, h), farthest = std::max(farthest, largest_component(corner[i]));
     }
-    const double limit = reach * (1 + 0x1p-48) + 0x1p-48 * largest(m) * farthest + 0x1p-1000;
+    const double limit = reach * (1 + 0x1p-48) + 0x1p-48 * largest_component(m) * farthest + 0x1p-1000;
     return least > limit || most < -limit;
   }
 };
