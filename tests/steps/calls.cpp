@@ -3,7 +3,7 @@
 namespace onset::tests {
 
 const char* name(Call call) {
-  const char* names[] = {"whole", "line search", "listed", "close pairs", "adapter"};
+  const char* names[] = {"whole", "line search", "listed", "close pairs", "adapter", "filtered adapter"};
   return names[int(call)];
 }
 
@@ -38,14 +38,17 @@ CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixX
       return {
           compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options, keep), keep, keep * d_hat, true, {}, d_hat};
     }
-    case Call::adapter: {
+    case Call::adapter:
+    case Call::filtered: {
       CallStep step = search(mesh(call), x_t0, x_t1, options, keep);  // for what the adapter does not say
       ipc::TightInclusionCCD ccd;
       ccd.tolerance = options.tolerance.value_or(ccd.tolerance), ccd.max_iterations = options.max_checks;
       ccd.conservative_rescaling = 1 - keep;
       step.keep = 1 - ccd.conservative_rescaling, step.reach = ccd.tolerance, step.says_outcome = false;
-      step.result.step =
-          ipc::compute_collision_free_stepsize(adapter_, x_t0, x_t1, options.min_separation, nullptr, ccd);
+      const double d = options.min_separation;
+      if (call == Call::filtered) step.only = compute_candidates(mesh(call), x_t0, x_t1, options);
+      step.result.step = ipc::compute_collision_free_stepsize(call == Call::filtered ? filtered_ : adapter_,
+                                                              x_t0, x_t1, d, nullptr, ccd);
       return step;
     }
   }

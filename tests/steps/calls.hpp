@@ -1,4 +1,4 @@
-// The five calls that give a step, asked in one way.
+// The calls that give a step, asked in one way.
 #pragma once
 
 #include <onset/ipc.hpp>
@@ -9,8 +9,10 @@
 
 namespace onset::tests {
 
-enum class Call { whole, line_search, listed, close, adapter };
-constexpr Call kCalls[] = {Call::whole, Call::line_search, Call::listed, Call::close, Call::adapter};
+// filtered: the adapter where can_collide is set, so that it goes by candidates.
+enum class Call { whole, line_search, listed, close, adapter, filtered };
+constexpr Call kCalls[] = {Call::whole, Call::line_search, Call::listed,
+                           Call::close, Call::adapter,     Call::filtered};
 const char* name(Call call);
 
 // The share of its gap that the calls with a default for it let every pair keep.
@@ -30,11 +32,14 @@ struct CallStep {
 class Calls {
  public:
   explicit Calls(const StepScene& scene)
-      : mesh_(scene.mesh()), adapter_(scene.x_t0, scene.edges, scene.faces) {}
+      : mesh_(scene.mesh()), adapter_(scene.x_t0, scene.edges, scene.faces), filtered_(adapter_) {
+    filtered_.can_collide = [](std::size_t, std::size_t) { return true; };
+  }
   Mesh& mesh() { return mesh_; }  // to be told more; the adapter's is not
   const Mesh& mesh() const { return mesh_; }
   // That of the call: the adapter tests points against edges and each other as well.
-  const Mesh& mesh(Call call) const { return call == Call::adapter ? adapter_.onset_mesh() : mesh_; }
+  const Mesh& mesh(Call call) const { return is_adapter(call) ? adapter_.onset_mesh() : mesh_; }
+  static bool is_adapter(Call call) { return call == Call::adapter || call == Call::filtered; }
   // d_hat: of the close pairs, > 0; keep: the share of all calls that have one. The adapter takes a
   // tolerance, a number of checks and a Euclidean separation.
   CallStep ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Options& options,
@@ -45,7 +50,7 @@ class Calls {
                   const Options& options, double keep) const;
 
   Mesh mesh_;
-  ipc::CollisionMesh adapter_;
+  ipc::CollisionMesh adapter_, filtered_;
 };
 
 // Where the motion that the call is told of ends: a line search forms its end from a direction.

@@ -63,7 +63,7 @@ std::string broken_by_moving(const Asked& asked, const SceneTruth& truth, double
     if (std::string broken = broken_by_contact(asked, pair, step); !broken.empty()) return broken;
   std::string broken;
   if (step == 0 || truth.touching()) return broken;
-  for_all_pairs(asked.mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
+  asked.for_pairs([&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
     if (!broken.empty()) return;
     const Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
     const char* how =
@@ -83,9 +83,8 @@ std::string stuck(const Asked& asked, const StepResult& r) {
     return oracle::boxes_apart(at_rest, d + 2 * gap) || starts_beyond(motion, d, gap, asked.options.norm);
   };
   bool near = r.limiting.a >= 0 && !has_room(r.limiting.kind, r.limiting.vertices);
-  for_all_pairs(asked.mesh, [&](PairKind kind, int, int, const std::array<int, 4>& v) {
-    near = near || !has_room(kind, v);
-  });
+  asked.for_pairs(
+      [&](PairKind kind, int, int, const std::array<int, 4>& v) { near = near || !has_room(kind, v); });
   return near ? "" : "a step of 0 though every gap is more than twice the rounding";
 }
 
@@ -99,7 +98,7 @@ std::string share_lost(const Asked& asked, const CallStep& step) {
   std::string lost;
   const StepResult& r = step.result;
   if (step.keep == 0 || r.step == 0) return lost;
-  for_all_pairs(asked.mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
+  asked.for_pairs([&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
     const Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
     const double d = asked.separation(kind, v);
     if (!lost.empty() || oracle::boxes_apart(motion, d + step.reach + 2 * r.rounding)) return;

@@ -17,8 +17,18 @@ double Asked::separation(PairKind kind, const std::array<int, 4>& v) const {
   return options.min_separation + thickest(thickness, v, 0, first) + thickest(thickness, v, first, 4);
 }
 
+// By a vertex on each side that are at one place at both ends.
+bool Asked::is_welded(PairKind kind, const std::array<int, 4>& v) const {
+  for (int i = 0; i < scenes::first_body(kind); ++i)
+    for (int j = scenes::first_body(kind); j < 4; ++j) {
+      const int p = v[std::size_t(i)], q = v[std::size_t(j)];
+      if (x_t0.row(p) == x_t0.row(q) && x_t1.row(p) == x_t1.row(q)) return true;
+    }
+  return false;
+}
+
 SceneTruth::SceneTruth(const Asked& asked) {
-  for_all_pairs(asked.mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
+  asked.for_pairs([&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
     const scenes::Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
     const double d = asked.separation(kind, v);
     if (oracle::boxes_apart(motion, d)) return;

@@ -23,7 +23,16 @@ struct Asked {
   const Eigen::MatrixXd &x_t0, &x_t1;
   Options options;
   std::vector<double> thickness;                                               // of the mesh; empty: none
+  bool weld = false;                                                           // as the mesh was told
   double separation(PairKind kind, const std::array<int, 4>& vertices) const;  // that this pair must keep
+  bool is_welded(PairKind kind, const std::array<int, 4>& vertices) const;
+  // Every pair that may meet: visit(kind, a, b, vertices).
+  template <class F>
+  void for_pairs(F&& visit) const {
+    for_all_pairs(mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
+      if (!weld || !is_welded(kind, v)) visit(kind, a, b, v);
+    });
+  }
 };
 
 struct PairTruth {

@@ -114,7 +114,8 @@ TEST_CASE("windows and memory limits leave out no contact before complete_until"
   CHECK(10 * cut > oracle::fuzz(120));
 }
 
-TEST_CASE("few checks, horizons and windows give the same bytes for any number of threads", "[determinism]") {
+TEST_CASE("few checks, horizons and windows give the same bytes for any number of threads and either kernel",
+          "[determinism]") {
   Random random(oracle::fuzz_seed() * 1000 + 62);
   for (int i = 0; i < oracle::fuzz(24); ++i) {
     const scenes::Scene moving =
@@ -131,5 +132,7 @@ TEST_CASE("few checks, horizons and windows give the same bytes for any number o
     INFO("scene " << i << ", checks " << o.max_checks << ", certainty " << int(o.certainty) << ", narrow "
                   << int(o.narrow_phase) << ", window " << o.window << ", " << one.set.size() << " rows");
     for (int threads : {2, 4, 4}) CHECK(same(one, ask(calls, scene, o, threads)));
+    o.kernel = o.kernel == Kernel::scalar ? Kernel::automatic : Kernel::scalar;
+    CHECK(same(one, ask(calls, scene, o, 1)));
   }
 }

@@ -17,7 +17,7 @@ std::string to_text(const Options& o) {
   s << "tolerance " << o.tolerance.value_or(0) << ", relative " << o.relative_tolerance << ", separation "
     << o.min_separation << ", norm " << int(o.norm) << ", certainty " << int(o.certainty) << ", checks "
     << o.max_checks << ", narrow " << int(o.narrow_phase) << ", broad " << int(o.broad_phase) << ", window "
-    << o.window;
+    << o.window << ", passes " << o.touching_may_pass_through;
   return s.str();
 }
 
@@ -28,7 +28,7 @@ struct Counts {
 // What the mesh is told, and the calls that have these are asked.
 struct More {
   double d_hat, keep;
-  bool points = false;
+  bool points = false, weld = false;
   std::vector<double> thickness;
 };
 
@@ -36,15 +36,16 @@ void check_scene(const StepScene& scene, const Options& options, const More& wha
   Calls calls(scene);
   if (what.points) calls.mesh().set_points(scene.points());
   if (!what.thickness.empty()) calls.mesh().set_thickness(what.thickness);
-  const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, what.thickness};
+  calls.mesh().set_weld(what.weld);
+  const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, what.thickness, what.weld};
   const oracle::Truth first = SceneTruth(asked).first();
   ++counts.scenes, counts.contacts += first.collides, counts.initial += first.toi_hi == 0;
   counts.at_the_end += first.toi_lo == 1;
   const std::string broken = broken_promise(asked, calls, what.d_hat, what.keep);
   if (broken.empty()) return;
   INFO(to_text(options) << ", d_hat " << what.d_hat << ", keep " << what.keep << ", points " << what.points
-                        << ", thick " << what.thickness.size() << ", exact " << first.toi_lo << " "
-                        << first.toi_hi);
+                        << ", weld " << what.weld << ", thick " << what.thickness.size() << ", exact "
+                        << first.toi_lo << " " << first.toi_hi);
   FAIL_CHECK(broken);
 }
 
@@ -59,10 +60,11 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
   for (int i = 0; i < count; ++i) {
     const StepScene scene = make(random);
     Options options = random_options(scene, random);
-    More more{some_d_hat(scene, random), kKeep, scenes::coin(random), {}};
+    More more{some_d_hat(scene, random), kKeep, scenes::coin(random), scenes::integer(random, 0, 4) == 0, {}};
     if (scenes::coin(random)) more.keep = scenes::coin(random) ? 0 : scenes::uniform(random, 0, 0.99);
     if (scenes::integer(random, 0, 7) == 0 && options.norm == Norm::euclidean)
       options.min_separation = 0, more.thickness = random_thickness(scene, random);
+    options.touching_may_pass_through = scenes::integer(random, 0, 7) == 0;
     INFO("scene " << i);
     check_scene(scene, options, more, counts);
   }

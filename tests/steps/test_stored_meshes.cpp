@@ -19,8 +19,9 @@ constexpr double kOffsets[] = {0, 1, 1e3, 1e5, 1e7, 1e9};
 constexpr int kPushes = 60;
 
 struct Bodies {
-  Scene scene;  // at rest
-  int first;    // rows of the first body; 0: there is one
+  Scene scene;         // at rest
+  int first;           // rows of the first body; 0: there is one
+  bool fixed = false;  // the second body is static
 };
 
 Bodies some_bodies(Random& random) {
@@ -43,9 +44,16 @@ Bodies some_bodies(Random& random) {
       for (Eigen::Index v = 0; v < upper.x_t0.rows(); ++v)
         upper.x_t0(v, 2) = 0.2 * std::pow(upper.x_t0(v, 0) - 0.5, 2), upper.x_t0(v, 0) *= 0.5;
       upper.x_t1 = upper.x_t0;
-      return {upper, 0};
+      return {upper, 0, false};
   }
-  return {scenes::joined(upper, lower), int(upper.x_t0.rows())};
+  return {scenes::joined(upper, lower), int(upper.x_t0.rows()), false};
+}
+
+// The second body, which may be static. It is stored anew in every push, and not always where it was.
+std::vector<bool> below(const Bodies& bodies) {
+  std::vector<bool> flags(std::size_t(bodies.scene.x_t0.rows()), true);
+  std::fill_n(flags.begin(), bodies.first, false);
+  return flags;
 }
 
 // Every vertex of a body by one step, and each by some of its own; a body of one part is squeezed.
@@ -54,7 +62,7 @@ Eigen::MatrixXd aimed(const Bodies& bodies, const Eigen::MatrixXd& x, Random& ra
   const double far = scenes::power_of_ten(random, -4, 0.3), noise = scenes::coin(random) ? 0 : far;
   const Eigen::RowVector3d middle = x.colwise().mean();
   const Point step = scenes::plus({0, 0, -far}, scenes::point(random, scenes::coin(random) ? 0 : 0.5 * far));
-  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+  for (Eigen::Index v = 0; v < (bodies.fixed ? bodies.first : x.rows()); ++v) {
     const Point own = scenes::point(random, 0.2 * noise);
     for (int a = 0; a < 3; ++a) {
       if (v < bodies.first) to(v, a) += step[std::size_t(a)];
@@ -106,11 +114,13 @@ Counts push_all(int meshes, std::uint64_t seed) {
   Counts counts;
   for (int i = 0; i < meshes; ++i) {
     Bodies bodies = some_bodies(random);
+    bodies.fixed = bodies.first > 0 && scenes::coin(random);
     const double offset = kOffsets[scenes::integer(random, 0, 5)];
     const Point where = scenes::point(random, offset);
     bodies.scene = scenes::translated(bodies.scene, {where[0], where[1], where[2]});
     const Calls calls(
         {bodies.scene.x_t0, bodies.scene.x_t0, onset::edges(bodies.scene.faces), bodies.scene.faces});
+    if (bodies.fixed) calls.mesh().set_static(below(bodies));
     if (!meets_itself(calls.mesh(), bodies.scene.x_t0).empty()) {
       ++counts.refused;
       continue;

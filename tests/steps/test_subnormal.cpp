@@ -30,7 +30,7 @@ StepScene tiny_grid(Random& random) {
 // By the lemma: whatever path vertices take within their distances, no pair comes within its separation.
 std::string unsafe(const Asked& asked, const std::vector<double>& r) {
   std::string broken;
-  for_all_pairs(asked.mesh, [&](PairKind kind, int, int, const std::array<int, 4>& v) {
+  asked.for_pairs([&](PairKind kind, int, int, const std::array<int, 4>& v) {
     const int first = scenes::first_body(kind);
     const double moved = thickest(r, v, 0, first) + thickest(r, v, first, 4);  // the largest of each side
     if (moved == 0 || !broken.empty()) return;
