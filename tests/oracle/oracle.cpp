@@ -35,11 +35,6 @@ static Relative<Rational> at(const scenes::Query& query, double t) {
   return relative(query.kind, x);
 }
 
-bool moves_as_one(const scenes::Query& query) {
-  const Relative<Rational> at_t0 = at(query, 0), at_t1 = at(query, 1);
-  return at_t0.q == at_t1.q && at_t0.a == at_t1.a && at_t0.b == at_t1.b;
-}
-
 static Rational squared_distance(const Relative<Rational>& r) {
   const Vector<Rational> d = shortest_difference(r);
   return dot(d, d);

@@ -23,9 +23,6 @@ Truth exact_ccd(const EdgeEdgeQuery& query);
 // all t.
 Truth exact_ccd_after_start(const scenes::Query& query);
 
-// Whether the two move as one, exactly: all differences of their points are the same at both ends.
-bool moves_as_one(const scenes::Query& query);
-
 // The sign of (distance at time t) - d, exactly. t and d are any finite doubles, d >= 0.
 int compare_distance(const scenes::Query& query, double t, double d, Norm norm = Norm::euclidean);
 inline bool closer_than(const scenes::Query& query, double t, double d, Norm norm = Norm::euclidean) {

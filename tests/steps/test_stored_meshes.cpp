@@ -118,8 +118,7 @@ Counts push_all(int meshes, std::uint64_t seed) {
     const double offset = kOffsets[scenes::integer(random, 0, 5)];
     const Point where = scenes::point(random, offset);
     bodies.scene = scenes::translated(bodies.scene, {where[0], where[1], where[2]});
-    const Calls calls(
-        {bodies.scene.x_t0, bodies.scene.x_t0, onset::edges(bodies.scene.faces), bodies.scene.faces});
+    Calls calls({bodies.scene.x_t0, bodies.scene.x_t0, onset::edges(bodies.scene.faces), bodies.scene.faces});
     if (bodies.fixed) calls.mesh().set_static(below(bodies));
     if (!meets_itself(calls.mesh(), bodies.scene.x_t0).empty()) {
       ++counts.refused;
