@@ -131,7 +131,7 @@ Counts push_all(int meshes, std::uint64_t seed) {
       }
     }
   }
-  std::printf("%d meshes pushed by 5 calls: %lld pushes, %lld met, %lld stuck, %lld stopped\n", meshes,
+  std::printf("%d meshes pushed by every call: %lld pushes, %lld met, %lld stuck, %lld stopped\n", meshes,
               counts.pushes, counts.met, counts.stuck, counts.stopped);
   return counts;
 }

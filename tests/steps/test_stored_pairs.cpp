@@ -162,7 +162,7 @@ Counts push_all(int pairs, std::uint64_t seed, bool separated) {
     for (Call call : kCalls) push_on(kind, call, aim, offset, separation, random, counts);
   }
   std::printf(
-      "%d pairs pushed by 5 calls: %lld pushes, %lld through, %lld within, %lld stuck, %lld stopped\n", pairs,
+      "%d pairs pushed by every call: %lld pushes, %lld through, %lld within, %lld stuck, %lld stopped\n", pairs,
       counts.pushes, counts.through, counts.within, counts.stuck, counts.stopped);
   return counts;
 }
