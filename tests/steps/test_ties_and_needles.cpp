@@ -116,6 +116,7 @@ void check_all(int pairs, std::uint64_t seed, Norm norm) {
                         << ", starts at " << k.start);
   }
   CHECK((beyond > 0 && within > 0));
+  if (pairs >= 100) CHECK((4 * beyond > pairs && 4 * within > pairs));
 }
 
 }  // namespace
