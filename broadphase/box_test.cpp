@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "base/mesh_data.hpp"
-#include "base/motion.hpp"
-#include "base/primitive_filter.hpp"
+#include "scene/mesh_data.hpp"
+#include "scene/motion.hpp"
+#include "scene/primitive_filter.hpp"
 
 namespace onset {
 namespace {

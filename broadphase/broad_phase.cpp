@@ -1,7 +1,7 @@
 #include "broadphase/broad_phase.hpp"
 
 #include "broadphase/brute_force.hpp"
-#include "broadphase/bvh.hpp"
+#include "broadphase/bvh/bvh.hpp"
 #include "broadphase/spatial_hash.hpp"
 
 namespace onset {

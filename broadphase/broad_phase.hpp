@@ -5,12 +5,12 @@
 #include <memory>
 #include <vector>
 
-#include "base/mesh_data.hpp"
-#include "base/motion.hpp"
-#include "base/pair_sink.hpp"
-#include "base/primitive.hpp"
 #include "broadphase/box_test.hpp"
 #include "onset/options.hpp"
+#include "scene/mesh_data.hpp"
+#include "scene/motion.hpp"
+#include "scene/pair_sink.hpp"
+#include "scene/primitive.hpp"
 
 namespace onset {
 
@@ -37,7 +37,7 @@ inline bool is_wanted(const BroadPhaseInput& input, Primitive kind) {
   return kind != Primitive::vertex || !input.edges_against_faces;
 }
 
-// Emits each pair that the mesh lets meet (may_meet in base/primitive_filter.hpp) and that passes the test,
+// Emits each pair that the mesh lets meet (may_meet in scene/primitive_filter.hpp) and that passes the test,
 // exactly once.
 class BroadPhase : public PairSource {
  public:

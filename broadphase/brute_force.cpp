@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "broadphase/motion_box.hpp"
-#include "broadphase/pair_batch.hpp"
+#include "scene/pair_sink.hpp"
 
 namespace onset {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "base/primitive_filter.hpp"
 #include "broadphase/broad_phase.hpp"
+#include "scene/primitive_filter.hpp"
 
 namespace onset {
 

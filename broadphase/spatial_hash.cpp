@@ -5,8 +5,8 @@
 
 #include "base/parallel.hpp"
 #include "broadphase/cell_grid.hpp"
-#include "broadphase/pair_batch.hpp"
-#include "broadphase/supports.hpp"
+#include "scene/pair_sink.hpp"
+#include "broadphase/bvh/float_boxes.hpp"
 
 namespace onset {
 

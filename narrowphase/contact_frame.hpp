@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "base/motion.hpp"
 #include "onset/options.hpp"
+#include "scene/motion.hpp"
 
 namespace onset {
 

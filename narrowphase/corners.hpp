@@ -1,7 +1,7 @@
 // One pair as scalar code sees it: corner differences scaled by a power of two.
 #pragma once
 
-#include "base/motion.hpp"
+#include "scene/motion.hpp"
 
 namespace onset {
 

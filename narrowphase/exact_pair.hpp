@@ -5,8 +5,8 @@
 #include <array>
 #include <iterator>
 
-#include "base/motion.hpp"
 #include "onset/result.hpp"
+#include "scene/motion.hpp"
 
 namespace onset {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/aligned.hpp"
-#include "base/motion.hpp"
+#include "scene/motion.hpp"
 
 namespace onset {
 

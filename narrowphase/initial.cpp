@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/orientation.hpp"
+#include "narrowphase/orientation.hpp"
 #include "narrowphase/vec.hpp"
 
 namespace onset {

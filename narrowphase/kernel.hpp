@@ -6,7 +6,7 @@ namespace onset {
 
 // Pairs of one kind. Vertex ids: vertex-face v, f0, f1, f2; edge-edge a0, a1, b0, b1.
 struct KernelPairs {
-  const double* x;           // kMotionStride doubles a vertex (base/motion.hpp)
+  const double* x;           // kMotionStride doubles a vertex (scene/motion.hpp)
   const float* rounded;      // kFloatStride floats a vertex (float_positions.hpp), scaled by `scale`; null: not there
   const int (*vertices)[4];  // one row a pair
   const double* separation;  // d of each pair, model length

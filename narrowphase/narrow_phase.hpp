@@ -5,14 +5,14 @@
 #include <array>
 #include <vector>
 
-#include "base/motion.hpp"
-#include "base/pair_sink.hpp"
 #include "narrowphase/corners.hpp"
 #include "narrowphase/exact.hpp"
 #include "narrowphase/float_positions.hpp"
 #include "narrowphase/initial.hpp"
 #include "narrowphase/kernel.hpp"
 #include "onset/options.hpp"
+#include "scene/motion.hpp"
+#include "scene/pair_sink.hpp"
 
 namespace onset {
 

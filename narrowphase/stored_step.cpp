@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/motion.hpp"
 #include "narrowphase/pair_decision.hpp"
+#include "scene/motion.hpp"
 
 namespace onset {
 

@@ -1,9 +1,9 @@
 // Options checked once, and what follows from them for a motion.
 #pragma once
 
-#include "base/mesh_data.hpp"
-#include "base/motion.hpp"
 #include "onset/options.hpp"
+#include "scene/mesh_data.hpp"
+#include "scene/motion.hpp"
 
 namespace onset {
 

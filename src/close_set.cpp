@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "base/motion.hpp"
 #include "base/parallel.hpp"
 #include "narrowphase/closest_points.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "scene/motion.hpp"
 
 namespace onset {
 namespace {

@@ -1,8 +1,8 @@
 // Candidate pairs to those within d-hat at given positions.
 #pragma once
 
-#include "base/pair_sink.hpp"
 #include "onset/close_pairs.hpp"
+#include "scene/pair_sink.hpp"
 
 namespace onset {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/motion.hpp"
+#include "scene/motion.hpp"
 #include "src/pass.hpp"
 
 namespace onset {

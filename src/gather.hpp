@@ -8,8 +8,8 @@
 #include <mutex>
 #include <vector>
 
-#include "base/pair_sink.hpp"
 #include "base/parallel.hpp"
+#include "scene/pair_sink.hpp"
 #include "src/budget.hpp"
 
 namespace onset {

@@ -1,8 +1,8 @@
 // The step of pairs that are known: no broad phase.
 #pragma once
 
-#include "base/motion.hpp"
 #include "onset/mesh.hpp"
+#include "scene/motion.hpp"
 #include "src/held_pairs.hpp"
 
 namespace onset {

@@ -7,8 +7,8 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
-#include "base/primitive_filter.hpp"
 #include "broadphase/motion_box.hpp"
+#include "scene/primitive_filter.hpp"
 #include "src/checked_options.hpp"
 #include "src/contact_rows.hpp"
 #include "src/pass.hpp"

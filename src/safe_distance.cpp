@@ -80,7 +80,7 @@ int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) 
 
 }  // namespace
 
-// Storing errs as base/motion.hpp says, in half the distance by half of that bound; largest is M, or d_hat where that is more, and x
+// Storing errs as scene/motion.hpp says, in half the distance by half of that bound; largest is M, or d_hat where that is more, and x
 // moves by less than d_hat. Relative errors of computed norms and products are a few u; 1 - 2^-48 covers them and makes the bound
 // strict. Half of a subnormal gap rounds by 2^-1075, which is taken off.
 std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close) {

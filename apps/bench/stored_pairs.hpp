@@ -5,7 +5,7 @@
 #include <onset/onset.hpp>
 #include <vector>
 
-#include "base/pair_sink.hpp"
+#include "scene/pair_sink.hpp"
 
 namespace app {
 

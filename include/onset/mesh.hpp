@@ -12,7 +12,7 @@
 
 namespace onset {
 
-struct MeshData;      // base/mesh_data.hpp
+struct MeshData;      // scene/mesh_data.hpp
 struct Intersection;  // onset/intersections.hpp
 
 // Immutable after construction apart from the set_ functions; const calls from any number of threads are
@@ -136,7 +136,7 @@ class ONSET_API Mesh {
   std::shared_ptr<const MeshData> data_;
 };
 
-// The undirected edges of `faces`, each once, in the order of igl::edges: see src/edges.cpp.
+// The undirected edges of `faces`, each once, in the order of igl::edges: see scene/edges.cpp.
 ONSET_API std::vector<std::array<int, 2>> edge_list(const Indices& faces);
 
 // One row an edge.

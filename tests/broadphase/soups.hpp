@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/mesh_data.hpp"
-#include "base/motion.hpp"
+#include "scene/mesh_data.hpp"
+#include "scene/motion.hpp"
 #include "tests/scenes/random.hpp"
 
 namespace onset::tests {

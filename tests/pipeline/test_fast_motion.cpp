@@ -1,8 +1,8 @@
 // Steps of many times a triangle's size: the active set holds the pairs that touch, each found on its own.
 #include <cmath>
 
-#include "base/motion.hpp"
 #include "broadphase/box_test.hpp"
+#include "scene/motion.hpp"
 #include "tests/catch.hpp"
 #include "tests/narrowphase/fuzz.hpp"
 #include "tests/pipeline/mesh_pairs.hpp"

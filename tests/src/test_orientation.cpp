@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/orientation.hpp"
+#include "narrowphase/orientation.hpp"
 #include "tests/catch.hpp"
 
 using Rational = boost::multiprecision::cpp_rational;

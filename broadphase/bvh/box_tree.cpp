@@ -1,0 +1,149 @@
+#include "broadphase/bvh/box_tree.hpp"
+
+#include <algorithm>
+
+#include "base/dispatch.hpp"
+#include "base/parallel.hpp"
+
+namespace onset {
+
+namespace {
+
+constexpr std::size_t kGrain = 512;
+
+int vertices_each(Primitive kind) { return kind == Primitive::vertex ? 1 : kind == Primitive::edge ? 2 : 3; }
+
+// Primitives have records of their own where thickness makes their inflations differ; vertices always do.
+bool own_supports(const BroadPhaseInput& input, Primitive kind) {
+  return kind != Primitive::vertex && !input.mesh.thickness.empty();
+}
+
+}  // namespace
+
+// Unused lanes refer to the record after the last.
+BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
+                 bool alone)
+    : kind_(kind), count_(list.count) {
+  const std::size_t each = std::size_t(vertices_each(kind_)), slots = (count_ + kBlock - 1) / kBlock * kBlock;
+  ids_ = AlignedArray<int>(slots), vertices_ = AlignedArray<int>(slots * each);
+  order_primitives(mesh, kind, list, order, ids_.data());
+  std::fill(ids_.data() + count_, ids_.data() + slots, int(count_));
+  if (!alone) names_.resize(slots * each, -1);
+  parallel_ranges(slots, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t slot = first; slot < last; ++slot) {
+      int* out = vertices_.data() + slot / kBlock * each * kBlock + slot % kBlock;
+      const auto vertices =
+          slot < count_ ? primitive_vertices(mesh, kind_, ids_[slot]) : std::array<int, 3>{};
+      for (std::size_t k = 0; k < each; ++k)
+        out[k * kBlock] = slot < count_ ? order.rank[std::size_t(vertices[k])] : int(order.vertex.size());
+      if (!alone && slot < count_)
+        for (std::size_t k = 0; k < each; ++k)
+          names_[std::size_t(out - vertices_.data()) + k * kBlock] = vertices[k];
+    }
+  });
+  if (mesh.filter && mesh.filter->compares_keys) make_keys(mesh);
+}
+
+// See TreeView: bodies_ has all levels one after the other. Unused lanes meet no group.
+void BoxTree::make_keys(const MeshData& mesh) {
+  const std::vector<PrimitiveKey>& all = mesh.filter->keys[std::size_t(kind_)];
+  keys_.assign(3 * ids_.size(), 0), bodies_.assign(ids_.size(), 0);
+  for (std::size_t slot = 0; slot < count_; ++slot) {
+    const PrimitiveKey& key = all[std::size_t(ids_[slot])];
+    int* row = keys_.data() + slot / kBlock * (3 * kBlock) + slot % kBlock;
+    row[0] = key.flags, row[kBlock] = int(key.group), row[2 * kBlock] = int(key.mask);
+    bodies_[slot] = key.body;
+  }
+  std::size_t below = 0, used = count_, levels = 1;
+  do {
+    const std::size_t above = bodies_.size(), blocks = (used + kBlock - 1) / kBlock;
+    bodies_.resize(above + (blocks + kBlock - 1) / kBlock * kBlock, 0);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const int* lane = bodies_.data() + below + b * kBlock;
+      const std::size_t lanes = std::min(used - b * kBlock, std::size_t(kBlock));
+      bodies_[above + b] =
+          std::all_of(lane, lane + lanes, [&](int body) { return body == *lane; }) ? *lane : 0;
+    }
+    below = above, used = blocks, ++levels;
+  } while (levels < 3 || used > kBlock);
+}
+
+void BoxTree::lay_out(bool motion) {
+  std::size_t total = 0, level = blocks();
+  view_.levels = 0;
+  do {
+    view_.blocks[view_.levels++] = int(level);
+    total += level;
+    level = (level + kBlock - 1) / kBlock;
+  } while (view_.levels < 3 || view_.blocks[view_.levels - 1] > 1);
+  const std::size_t size = std::size_t(kRowsOf[motion] * kBlock), box = std::size_t(kBoxStrideOf[motion]);
+  if (boxes_.size() < total * (size + box)) boxes_ = AlignedArray<float>(total * (size + box));
+  float* place = boxes_.data();
+  for (int l = 0; l < view_.levels; ++l) {
+    view_.level[l] = place;
+    place += std::size_t(view_.blocks[l]) * size;
+  }
+  for (int l = 0; l < view_.levels; ++l) {
+    view_.box[l] = place;
+    place += std::size_t(view_.blocks[l]) * box;
+  }
+  view_.ids = ids_.data();
+  view_.vertices = names_.empty() ? vertices_.data() : names_.data();
+  view_.keys = keys_.empty() ? nullptr : keys_.data();
+  std::size_t first = 0;
+  for (int l = 0; l < view_.levels; ++l) {
+    view_.bodies[l] = bodies_.empty() ? nullptr : bodies_.data() + first;
+    first += std::size_t(view_.blocks[l]) * kBlock;
+  }
+}
+
+void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap& map,
+                  const Supports& vertices) {
+  if (count_ == 0) return;
+  const bool motion = input.test != BoxTest::swept, own = own_supports(input, kind_);
+  const BvhKernel& kernel = bvh_kernel(input.kernel);
+  const Supports mine = own ? make_supports(input, inflation, map, kind_, ids_.data(), count_) : Supports{};
+  const Supports& supports = own ? mine : vertices;
+  rounded_axes_ = supports.rounded_axes;
+  lay_out(motion);
+  std::vector<int> slots(own ? ids_.size() : 0);
+  for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = int(std::min(slot, count_));
+  const FitArguments fit{view_, motion, supports.records.data(), own ? slots.data() : vertices_.data(),
+                         own ? 1 : vertices_each(kind_)};
+  parallel_ranges(blocks(), kGrain,
+                  [&](std::size_t first, std::size_t last) { kernel.fit_leaves(fit, first, last); });
+  for (int l = 1; l < view_.levels; ++l)
+    parallel_ranges(std::size_t(view_.blocks[l]), kGrain, [&](std::size_t first, std::size_t last) {
+      kernel.fit_level(view_, l, motion, first, last);
+    });
+  linear_ = motion && map.is_linear();
+  for (int row = 0; linear_ && row < kRowsOf[1]; ++row) linear_ = reach(row) < FloatMap::kLargest;
+}
+
+float BoxTree::reach(int row) const {
+  const float* lanes = view_.level[view_.levels - 1] + row * kBlock;
+  return *std::max_element(lanes, lanes + kBlock);
+}
+
+// Negative sums of opposite supports: see kernel.hpp.
+bool BoxTree::apart(const BoxTree& other, bool motion) const {
+  if (count_ == 0 || other.count_ == 0) return true;
+  for (int k = 0; k < 6; ++k) {
+    const int opposite = (k + 3) % 6;
+    if (reach(k) + other.reach(opposite) < 0 && (!motion || reach(6 + k) + other.reach(6 + opposite) < 0))
+      return true;
+  }
+  return false;
+}
+
+const BvhKernel& bvh_kernel(Kernel kernel) {
+  static constexpr BvhKernel scalar{bvh_scalar::fit_leaves, bvh_scalar::fit_level, bvh_scalar::traverse};
+#ifdef ONSET_HAVE_AVX2
+  static constexpr BvhKernel avx2{bvh_avx2::fit_leaves, bvh_avx2::fit_level, bvh_avx2::traverse};
+  if (resolve_kernel(kernel) == Kernel::avx2) return avx2;
+#endif
+  (void)kernel;
+  return scalar;
+}
+
+}  // namespace onset

@@ -1,0 +1,154 @@
+#include "broadphase/bvh/bvh.hpp"
+
+#include <optional>
+#include <vector>
+
+#include "base/dispatch.hpp"
+#include "base/parallel.hpp"
+#include "broadphase/bvh/box_tree.hpp"
+#include "broadphase/bvh/static_trees.hpp"
+
+namespace onset {
+
+namespace {
+
+class Bvh final : public BroadPhase {
+ public:
+  explicit Bvh(const BroadPhaseInput& input) {
+    const MeshData& mesh = input.mesh;
+    const PrimitiveFilter* filter = mesh.filter.get();
+    const bool all = !filter || filter->all;
+    const bool alone = !filter || !filter->has_fixed();
+    finite_ = input.motion.status == Outcome::free;
+    if (!alone && finite_) fixed_ = fixed_trees(input, made_fixed_);
+    const FloatMap map = fixed_ ? fixed_->map : FloatMap(input.motion);
+    const auto listed = [&](const std::vector<int>& ids) { return IdList{ids.data(), ids.size()}; };
+    order_ = make_vertex_order(
+        input.motion, map,
+        all ? IdList{nullptr, std::size_t(mesh.num_vertices)} : listed(filter->moving_vertices));
+    parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k)
+        trees_[k].emplace(mesh, kPrimitives[k],
+                          !is_wanted(input, kPrimitives[k]) ? IdList{nullptr, 0}
+                          : all ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])}
+                                : listed(filter->moving[k]),
+                          order_, alone);
+    });
+    roughness_ = roughness(order_, input.motion);
+    fit(input, map);
+  }
+
+  const char* name() const override { return "bvh"; }
+  bool made_fixed_boxes() const override { return made_fixed_; }
+
+  bool suits(const Motion& motion) const override {
+    return roughness(order_, motion) <= kMostRoughened * roughness_;
+  }
+
+  void refit(const BroadPhaseInput& input) override {
+    finite_ = input.motion.status == Outcome::free;
+    if (finite_ && input.mesh.filter && input.mesh.filter->has_fixed()) {
+      bool made = false;
+      fixed_ = fixed_trees(input, made);
+      made_fixed_ = made;
+    }
+    fit(input, fixed_ ? fixed_->map : FloatMap(input.motion));
+  }
+
+  std::size_t blocks(PairKind kind) const override {
+    const auto& couples = couples_[std::size_t(kind)];
+    return couples.empty() ? 0 : couples.back().end;
+  }
+
+  void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
+    std::size_t begin = 0;
+    for (const Couple& couple : couples_[std::size_t(kind)]) {
+      const std::size_t from = std::max(first, begin), to = std::min(last, couple.end);
+      if (from < to) traverse(kind, couple, from - begin, to - begin, sink);
+      begin = couple.end;
+    }
+  }
+
+ private:
+  // Two trees that are traversed together; its blocks are those up to `end` that no couple before has.
+  struct Couple {
+    const BoxTree *query, *other;
+    std::size_t end;
+  };
+
+  struct Decide {
+    const BroadPhaseInput& input;
+    PairKind kind;
+    static bool meet(const void* context, int a, int b) {
+      const Decide& d = *static_cast<const Decide*>(context);
+      return boxes_pass(d.input, d.kind, {a, b});
+    }
+    static bool excluded(const void* context, int a, int b) {
+      const Decide& d = *static_cast<const Decide*>(context);
+      return onset::excluded(d.input.mesh, d.kind, a, b);
+    }
+  };
+
+  void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
+                const PairSink& sink) const {
+    const Decide decide{*input_, kind};
+    TraverseArguments arguments{};
+    arguments.query = couple.query->view(), arguments.tree = couple.other->view();
+    arguments.test = input_->test;
+    static_assert(Sides(kEdgeFace) == Sides::edges_faces, "one number for both");
+    arguments.sides = Sides(kind);
+    arguments.self = couple.query == couple.other;
+    arguments.keyed = arguments.query.keys != nullptr;
+    arguments.rounded_axes = couple.query->rounded_axes() | couple.other->rounded_axes();
+    arguments.linear = couple.query->linear() && couple.other->linear();
+    arguments.first = first, arguments.last = last;
+    arguments.meets = Decide::meet, arguments.excluded = Decide::excluded, arguments.context = &decide;
+    arguments.consume = sink.consume, arguments.consume_context = sink.context;
+    bvh_kernel(input_->kernel).traverse(arguments);
+  }
+
+  void fit(const BroadPhaseInput& input, const FloatMap& map) {
+    input_.emplace(input);
+    input_->kernel = resolve_kernel(input.kernel);
+    const double inflation = part_inflation(input, false);
+    const Supports vertices =
+        make_supports(*input_, inflation, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());
+    parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, inflation, map, vertices);
+    });
+    for (const PairKind kind : wanted_kinds(input)) couple(kind);
+  }
+
+  // Static against static is never among them.
+  void couple(PairKind kind) {
+    auto& couples = couples_[std::size_t(kind)];
+    couples.clear();
+    if (!finite_) return;
+    const std::size_t a = std::size_t(first_primitive(kind)), b = std::size_t(second_primitive(kind));
+    add(couples, *trees_[a], *trees_[b]);
+    if (!fixed_) return;
+    const bool motion = input_->test != BoxTest::swept;
+    if (!trees_[a]->apart(*fixed_->trees[b], motion)) add(couples, *trees_[a], *fixed_->trees[b]);
+    if (a != b && !fixed_->trees[a]->apart(*trees_[b], motion)) add(couples, *fixed_->trees[a], *trees_[b]);
+  }
+  static void add(std::vector<Couple>& couples, const BoxTree& query, const BoxTree& other) {
+    if (query.units() == 0 || other.units() == 0) return;
+    couples.push_back({&query, &other, (couples.empty() ? 0 : couples.back().end) + query.units()});
+  }
+
+  static constexpr double kMostRoughened = 1.25;
+
+  VertexOrder order_;
+  double roughness_ = 0;  // of the order, when it was made
+  bool finite_ = false, made_fixed_ = false;
+  std::optional<BroadPhaseInput> input_;
+  std::array<std::optional<BoxTree>, 3> trees_;
+  std::shared_ptr<const FixedTrees> fixed_;
+  std::array<std::vector<Couple>, 3> couples_;
+};
+
+}  // namespace
+
+std::unique_ptr<BroadPhase> make_bvh(const BroadPhaseInput& input) { return std::make_unique<Bvh>(input); }
+
+}  // namespace onset

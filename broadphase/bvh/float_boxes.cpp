@@ -1,0 +1,181 @@
+#include "broadphase/bvh/float_boxes.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "broadphase/interval.hpp"
+
+namespace onset {
+
+namespace {
+
+constexpr int kSamples = 256;       // vertices; both ends of each
+constexpr std::size_t kStride = 2;  // samples a knot
+
+// Ascending.
+std::array<std::vector<double>, 3> sample(const Motion& motion) {
+  std::array<std::vector<double>, 3> samples;
+  const int step = std::max(1, motion.num_vertices / kSamples);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (int v = 0; v < motion.num_vertices; v += step)
+      samples[i].push_back(motion.t0(v)[i]), samples[i].push_back(motion.t1(v)[i]);
+    std::sort(samples[i].begin(), samples[i].end());
+  }
+  return samples;
+}
+
+double median_distance(std::vector<double> samples, double from) {
+  for (double& x : samples) x = std::fabs(x - from);
+  const auto middle = samples.begin() + std::ptrdiff_t(samples.size() / 2);
+  std::nth_element(samples.begin(), middle, samples.end());
+  return *middle;
+}
+
+}  // namespace
+
+FloatMap::FloatMap(const Motion& motion) {
+  const auto samples = sample(motion);
+  if (motion.status != Outcome::free || samples[0].empty()) return;
+  fit_linear(samples);
+  if (separates(samples)) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < samples[i].size(); k += kStride)
+      if (knots_[i].empty() || samples[i][k] > knots_[i].back()) knots_[i].push_back(samples[i][k]);
+    if (knots_[i].size() < 2) knots_[i].clear();
+  }
+}
+
+bool FloatMap::suits(const Motion& motion) const {
+  const auto samples = sample(motion);
+  return samples[0].empty() || separates(samples);
+}
+
+void FloatMap::fit_linear(const std::array<std::vector<double>, 3>& samples) {
+  double spread = 0, furthest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::vector<double>& x = samples[i];
+    centre_[i] = x[x.size() / 2];
+    spread = std::max(spread, median_distance(x, centre_[i]));
+    furthest = std::max(furthest, std::max(x.back() - centre_[i], centre_[i] - x.front()));
+  }
+  const double size = spread > 0 ? spread : furthest;
+  if (size == 0) return;
+  const int exponent = std::ilogb(size);
+  scale_ = std::ldexp(1.0, std::min(-exponent, 1000)), inverse_ = 1 / scale_;
+  // To a coarse multiple: coordinates that came from single precision then mostly stay exact, which spares
+  // the close calls.
+  const double grid = std::ldexp(1.0, std::min(exponent + 3, 1020));
+  for (double& c : centre_)
+    if (std::fabs(c) < grid * 0x1p50) c = std::nearbyint(c / grid) * grid;
+}
+
+// Whether neighbours among the samples are mostly told apart.
+bool FloatMap::separates(const std::array<std::vector<double>, 3>& samples) const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::size_t distinct = 0, merged = 0;
+    for (std::size_t k = 1; k < samples[i].size(); ++k) {
+      if (samples[i][k] == samples[i][k - 1]) continue;
+      ++distinct;
+      merged += (*this)(samples[i][k], i) == (*this)(samples[i][k - 1], i);
+    }
+    if (8 * merged > distinct) return false;
+  }
+  return true;
+}
+
+// Monotone: within an interval every operation is, and 1 is where the next interval begins.
+float FloatMap::between_knots(double x, std::size_t axis) const {
+  const std::vector<double>& knots = knots_[axis];
+  const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, x);
+  const double lower = above[-1], width = *above - lower, place = double(above - 1 - knots.begin());
+  double t = (x - lower) / width;  // below 0 and beyond 1 outside of the knots
+  if (above != knots.end() - 1) t = std::min(t, 1.0);
+  return to_float((place + t - 0.5 * double(knots.size())) * 0x1p-6);
+}
+
+namespace {
+
+constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kAhead = 16;  // vertices are read in an order that the processor cannot foresee
+
+// Writes one end of a record, returns the axes on which the map rounded.
+int write_end(const FloatMap& map, const std::array<double, 3>& lo, const std::array<double, 3>& hi,
+              float* out) {
+  int rounded = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float below = map(lo[i], i), above = map(hi[i], i);
+    out[i] = 0 - below, out[4 + i] = above;
+    rounded |= int(!(map.inverts(below, lo[i], i) && map.inverts(above, hi[i], i))) << i;
+  }
+  out[3] = out[7] = 0;
+  return rounded;
+}
+
+int write_record(const FloatMap& map, const MotionBox& box, float* out) {
+  return write_end(map, box.lo_t0, box.hi_t0, out) | write_end(map, box.lo_t1, box.hi_t1, out + kBlock);
+}
+
+// A vertex that is not widened, both ends at once: x y z 0 x y z 0.
+int write_point(const FloatMap& map, const double* x, float* out) {
+  float y[8];
+  int rounded[8];
+  for (std::size_t k = 0; k < 8; ++k) {
+    y[k] = map(x[k], k % 4);
+    rounded[k] = int(!map.inverts(y[k], x[k], k % 4));
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    out[k] = 0 - y[k], out[4 + k] = y[k];
+    out[8 + k] = 0 - y[4 + k], out[12 + k] = y[4 + k];
+  }
+  return (rounded[0] | rounded[4]) | (rounded[1] | rounded[5]) << 1 | (rounded[2] | rounded[6]) << 2;
+}
+
+// The same widened by r > 0, as motion_box widens it: the map is then not one to one.
+int write_widened_point(const FloatMap& map, const double* x, double r, float* out) {
+  float below[8], above[8];
+  for (std::size_t k = 0; k < 8; ++k) below[k] = map(widen_down(x[k], r), k % 4);
+  for (std::size_t k = 0; k < 8; ++k) above[k] = map(widen_up(x[k], r), k % 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool padding = k == 3;
+    out[k] = padding ? 0 : 0 - below[k], out[4 + k] = padding ? 0 : above[k];
+    out[8 + k] = padding ? 0 : 0 - below[4 + k], out[12 + k] = padding ? 0 : above[4 + k];
+  }
+  return 7;
+}
+
+}  // namespace
+
+Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
+                       const int* ids, std::size_t count) {
+  const bool swept = input.test == BoxTest::swept;
+  const bool points =
+      kind == Primitive::vertex && input.mesh.thickness.empty() && input.horizon == 1;
+  const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
+  Supports s;
+  s.count = count;
+  s.records = AlignedArray<float>((s.count + 1) * stride);
+  std::fill_n(s.records.data() + s.count * stride, stride, kNowhere);
+  std::atomic<int> rounded{0};
+  parallel_ranges(s.count, kGrain, [&](std::size_t first, std::size_t last) {
+    int mine = 0;
+    float record[2 * kBlock];
+    for (std::size_t i = first; i < last; ++i) {
+      if (points && i + kAhead < last) __builtin_prefetch(input.motion.t0(ids[i + kAhead]));
+      if (points)
+        mine |= inflation == 0 ? write_point(map, input.motion.t0(ids[i]), record)
+                               : write_widened_point(map, input.motion.t0(ids[i]), inflation, record);
+      else
+        mine |= write_record(map, motion_box(input, kind, ids[i], inflation), record);
+      float* out = s.records.data() + i * stride;
+      for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
+      if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);
+    }
+    rounded.fetch_or(mine);
+  });
+  s.rounded_axes = rounded;
+  return s;
+}
+
+}  // namespace onset

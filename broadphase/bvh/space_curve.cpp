@@ -1,0 +1,149 @@
+#include "broadphase/bvh/space_curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel.hpp"
+
+namespace onset {
+namespace {
+
+// The three-dimensional Hilbert curve as a state machine.
+//
+// Hamilton, "Compact Hilbert indices" (Dalhousie CS-2006-07): a state is the entry corner e (0..7) and the
+// direction d (0..2) of a cell, state = 8 d + e. next[state][octant] = 8 * (state of that octant) + its place
+// along the curve.
+struct HilbertTable {
+  std::array<std::array<std::uint8_t, 8>, 24> next{};
+};
+
+constexpr unsigned rotate_left(unsigned x, unsigned n) {
+  return ((x << n % 3) | (x >> (3 - n % 3) % 3)) & 7u;
+}
+constexpr unsigned rotate_right(unsigned x, unsigned n) { return rotate_left(x, 3 - n % 3); }
+constexpr unsigned gray(unsigned i) { return i ^ (i >> 1); }
+
+constexpr unsigned trailing_ones(unsigned i) {
+  unsigned n = 0;
+  for (; i & 1u; i >>= 1) ++n;
+  return n;
+}
+constexpr unsigned entry_corner(unsigned i) { return i == 0 ? 0 : gray(2 * ((i - 1) / 2)); }
+constexpr unsigned direction(unsigned i) {
+  return i == 0 ? 0 : i % 2 == 0 ? trailing_ones(i - 1) % 3 : trailing_ones(i) % 3;
+}
+
+constexpr HilbertTable make_hilbert_table() {
+  HilbertTable table;
+  for (unsigned d = 0; d < 3; ++d)
+    for (unsigned e = 0; e < 8; ++e)
+      for (unsigned place = 0; place < 8; ++place) {
+        const unsigned octant = rotate_left(gray(place), d + 1) ^ e;
+        const unsigned next_e = e ^ rotate_left(entry_corner(place), d + 1);
+        const unsigned next_d = (d + direction(place) + 1) % 3;
+        table.next[8 * d + e][octant] = std::uint8_t(8 * (8 * next_d + next_e) + place);
+      }
+  return table;
+}
+
+constexpr HilbertTable kTable = make_hilbert_table();
+constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kCrowd = 64;  // points in one cell that are worth a finer curve
+constexpr int kDeepest = 16;        // finer and finer, at most
+constexpr int kDigitBits = 10;      // of the radix sort
+
+struct Keyed {
+  std::uint32_t key;
+  int index;
+};
+
+// A cube of 2^kCurveBits cells an axis around points.
+struct Grid {
+  float lo[3], scale;
+
+  std::uint32_t cell(const float* p, int axis) const {
+    const float c = (p[axis] - lo[axis]) * scale, most = (1 << kCurveBits) - 1;
+    return std::uint32_t(c > 0 ? (c < most ? c : most) : 0.0f);
+  }
+  std::uint32_t key(const float* p) const { return hilbert_key(cell(p, 0), cell(p, 1), cell(p, 2)); }
+};
+
+// False where all points coincide.
+bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& grid) {
+  float lo[3], hi[3];
+  for (int i = 0; i < 3; ++i) lo[i] = hi[i] = points[3 * std::size_t(first->index) + std::size_t(i)];
+  for (const Keyed* k = first; k != last; ++k)
+    for (int i = 0; i < 3; ++i) {
+      const float x = points[3 * std::size_t(k->index) + std::size_t(i)];
+      lo[i] = std::min(lo[i], x), hi[i] = std::max(hi[i], x);
+    }
+  const float extent = std::max(hi[0] - lo[0], std::max(hi[1] - lo[1], hi[2] - lo[2]));
+  grid.scale = float(1 << kCurveBits) / extent;
+  std::copy(lo, lo + 3, grid.lo);
+  return extent > 0 && grid.scale < 0x1p126f;
+}
+
+// Stable, by the key's three digits.
+void radix_sort(Keyed* keys, Keyed* other, std::size_t count) {
+  constexpr std::uint32_t kDigits = 1u << kDigitBits;
+  if (count < kDigits) {
+    std::stable_sort(keys, keys + count, [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
+    return;
+  }
+  std::vector<std::uint32_t> start(3 * kDigits, 0);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::uint32_t pass = 0; pass < 3; ++pass)
+      ++start[pass * kDigits + (keys[i].key >> pass * kDigitBits) % kDigits];
+  for (std::uint32_t pass = 0; pass < 3; ++pass) {
+    std::uint32_t* to = &start[pass * kDigits];
+    for (std::uint32_t d = 0, sum = 0; d < kDigits; ++d) {
+      const std::uint32_t n = to[d];
+      to[d] = sum;
+      sum += n;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      other[to[(keys[i].key >> pass * kDigitBits) % kDigits]++] = keys[i];
+    std::swap(keys, other);
+  }
+  std::copy(keys, keys + count, other);  // three passes: the result lies in what came as `other`
+}
+
+void sort_range(const float* points, Keyed* keys, Keyed* scratch, std::size_t count, int depth) {
+  Grid grid;
+  if (!fit_grid(points, keys, keys + count, grid)) return;
+  parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      keys[i].key = grid.key(points + 3 * std::size_t(keys[i].index));
+  });
+  radix_sort(keys, scratch, count);
+  if (depth == kDeepest) return;
+  for (std::size_t first = 0, last; first < count; first = last) {
+    for (last = first + 1; last < count && keys[last].key == keys[first].key;) ++last;
+    if (last - first > kCrowd) sort_range(points, keys + first, scratch + first, last - first, depth + 1);
+  }
+}
+
+}  // namespace
+
+std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  std::uint32_t key = 0, state = 0;
+  for (int bit = kCurveBits - 1; bit >= 0; --bit) {
+    const std::uint32_t octant = (x >> bit & 1) | (y >> bit & 1) << 1 | (z >> bit & 1) << 2;
+    const std::uint32_t next = kTable.next[state][octant];
+    key = key << 3 | (next & 7);
+    state = next >> 3;
+  }
+  return key;
+}
+
+void order_along_curve(const float* points, std::size_t count, int* order) {
+  if (count == 0) return;
+  std::vector<Keyed> keys(count), scratch(count);
+  for (std::size_t i = 0; i < count; ++i) keys[i] = {0, int(i)};
+  sort_range(points, keys.data(), scratch.data(), count, 0);
+  for (std::size_t i = 0; i < count; ++i) order[i] = keys[i].index;
+}
+
+}  // namespace onset

@@ -1,0 +1,319 @@
+// Kernel text: the traversal of two trees.
+#pragma once
+
+#include "broadphase/bvh/box_overlap.inl"
+
+namespace onset {
+namespace ONSET_KERNEL {
+namespace {
+
+// Entries are written eight at a time, so there is room for eight more than may count.
+constexpr int kCapacity = 256;
+
+struct Pairs {
+  int a[kCapacity + kLanes], b[kCapacity + kLanes];
+  int count = 0;
+
+  bool full() const { return count > kCapacity - kLanes; }
+  void add(I8 as, I8 bs, int lanes) {
+    store(a + count, as), store(b + count, bs);
+    count += count_lanes(lanes);
+  }
+};
+
+// Two trees descended side by side. Every step is a loop over a list that writes the next list without
+// branches, eight entries at a time and as many of them counted as the test says; a list that is full is
+// emptied downward first, so memory is constant and the work depth first.
+template <BoxTest kTest, Sides kSides, bool kSelf, bool kKeyed>
+class Traversal {
+ public:
+  explicit Traversal(const TraverseArguments& arguments) : t_(arguments) {}
+
+  void run() {
+    const int top = t_.tree.levels - 1;
+    for (std::size_t q = t_.first; q < t_.last; ++q) {
+      Pairs& start = blocks_[top];
+      start.a[start.count] = int(q), start.b[start.count++] = 0;
+      if (start.full()) empty_blocks(top);
+    }
+    for (int level = top; level >= 0; --level) empty_blocks(level);
+    settle_doubtful();
+    flush();
+  }
+
+ private:
+  static constexpr bool kMotion = kTest != BoxTest::swept, kPassing = kTest == BoxTest::passing;
+  static constexpr int kRows = kRowsOf[kMotion];
+  static constexpr int kBoxStride = kBoxStrideOf[kMotion];
+  static constexpr bool kEdges = kSides == Sides::edges_edges;
+  static constexpr int kOwn = kSides == Sides::vertices_faces ? 1 : 2, kOther = kEdges ? 2 : 3;  // vertices of a primitive
+
+  static const float* block_of(const TreeView& tree, int level, unsigned n) {
+    return tree.level[level] + std::size_t(n) * (kRows * kLanes);
+  }
+  static const float* box_of(const TreeView& tree, int level, unsigned n) {
+    return tree.box[level] + std::size_t(n) * kBoxStride;
+  }
+
+  struct Leaves {
+    const float* boxes;
+    const int *vertices, *ids;
+    explicit Leaves(const TreeView& tree) : boxes(tree.level[0]), vertices(tree.vertices), ids(tree.ids) {}
+    const float* block(unsigned n) const { return boxes + std::size_t(n) * (kRows * kLanes); }
+    const float* box(unsigned slot) const { return block(slot / kBlock) + slot % kBlock; }
+  };
+
+  // Lanes of a block at `level` of `tree` that lie within one body as a whole, the body given, which does not
+  // meet itself.
+  static int within(int body, const TreeView& tree, int level, unsigned block) {
+    const I8 bodies = load(tree.bodies[level] + std::size_t(block) * kBlock);
+    return mask_true((broadcast(body) == bodies) & bodies);
+  }
+  // The body of a whole block at `level`, which is a lane of the level above.
+  static int body_of(const TreeView& tree, int level, unsigned block) {
+    return tree.bodies[level + 1][block];
+  }
+
+  // at_start and at_end only where boxes that pass are looked for.
+  __attribute__((always_inline)) static Reach reach_of(const float* box, int stride, const float* block) {
+    if constexpr (kPassing) return reach(box, stride, block);
+    return {overlap<kMotion>(box, stride, block), F8{}, F8{}};
+  }
+
+  // Lanes of a block of nodes that may meet a box.
+  int meeting(const float* box, int stride, const float* block) const {
+    const Reach r = reach_of(box, stride, block);
+    const int mask = mask_not_negative(r.at_both);
+    if (!kPassing || !t_.linear || (mask & mask_negative(r.at_start & r.at_end)) == 0) return mask;
+    const auto direction = [&](int k) {
+      const int across = opposite(k);
+      return Direction{broadcast(box + across * stride), broadcast(box + (6 + across) * stride),
+                       load(block + k * kLanes), load(block + (6 + k) * kLanes)};
+    };
+    return mask & ~look_closer(direction).apart;
+  }
+
+  // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
+  void empty_blocks(int level) {
+    if (level > 1)
+      descend(level);
+    else
+      split(level);
+    blocks_[level].count = 0;
+  }
+
+  // A block of the query, still whole, against the children of a node above.
+  void descend(int level) {
+    const Pairs& from = blocks_[level];
+    Pairs& to = blocks_[level - 1];
+    for (int e = 0; e < from.count; ++e) {
+      const int q = from.a[e], n = from.b[e];
+      int mask = meeting(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n));
+      if (kKeyed) mask &= ~within(body_of(t_.query, 1, unsigned(q)), t_.tree, level, unsigned(n));
+      if (kSelf) {  // nothing before q itself
+        const int skip = (q >> 3 * (level - 2)) - n * kBlock;
+        mask &= 0xff << (skip > 0 ? skip : 0);
+      }
+      to.add(broadcast(q), compress(lane_numbers() + broadcast(n * kBlock), mask), mask);
+      if (to.full()) empty_blocks(level - 1);
+    }
+  }
+
+  // Which children of a meet the box of b.
+  void split(int level) {
+    const Pairs& from = blocks_[level];
+    for (int e = 0; e < from.count; ++e) {
+      const int a = from.a[e], b = from.b[e];
+      int mask = meeting(box_of(t_.tree, level, b), 1, block_of(t_.query, level, a));
+      if (kKeyed) mask &= ~within(body_of(t_.tree, level, unsigned(b)), t_.query, level, unsigned(a));
+      children_[level].add(compress(lane_numbers() + broadcast(a * kBlock), mask), broadcast(b), mask);
+      if (children_[level].full()) empty_children(level);
+    }
+    empty_children(level);
+  }
+
+  void empty_children(int level) {
+    if (level > 0)
+      pair_children(level);
+    else
+      emit();
+    children_[level].count = 0;
+  }
+
+  // Lanes of block b that may pair with child c of a block of the query: each unordered pair once. (A
+  // primitive shares its vertices with itself.)
+  static int unpaired(unsigned c, unsigned b) { return kSelf && c / kBlock == b ? 0xff << c % kBlock : 0xff; }
+
+  void pair_children(int level) {
+    const Pairs& from = children_[level];
+    Pairs& to = blocks_[level - 1];
+    for (int e = 0; e < from.count; ++e) {
+      const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
+      const float* box = block_of(t_.query, level, c / kBlock) + c % kBlock;
+      int mask = meeting(box, kLanes, block_of(t_.tree, level, b)) & unpaired(c, b);
+      if (kKeyed) mask &= ~within(t_.query.bodies[level][c], t_.tree, level, b);
+      to.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), mask), mask);
+      if (to.full()) empty_blocks(level - 1);
+    }
+  }
+
+  void emit() {
+    const Leaves query(t_.query), tree(t_.tree);  // copies: what is written cannot change them
+    const bool rounded = t_.rounded_axes != 0;
+    const Pairs& from = children_[0];
+    const int items = from.count;
+    IdPair* out = out_ + count_;
+    for (int e = 0; e < items; ++e) {
+      const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
+      const float* box = query.box(c);
+      const Reach r = reach_of(box, kLanes, tree.block(b));
+      I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
+                          tree.vertices + std::size_t(b) * (kOther * kBlock));
+      if (kKeyed) shared = shared | apart(c, b);
+      int mask = mask_neither_negative(r.at_both, shared) & unpaired(c, b);
+      if (kKeyed) mask = without_excluded(mask, c, b);
+      if (const int doubt = in_doubt(mask, r, rounded); doubt != 0) {
+        count_ = std::size_t(out - out_);
+        mask &= ~defer(c, b, doubt);
+        out = out_ + count_;
+      }
+      const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
+      if (kEdges)
+        store_interleaved(&out->a, min(same, others), max(same, others));
+      else
+        store_interleaved(&out->a, same, others);
+      out += count_lanes(mask);
+      if (out > out_ + (kBatchSize - kLanes)) {
+        count_ = std::size_t(out - out_);
+        flush();
+        out = out_;
+      }
+    }
+    count_ = std::size_t(out - out_);
+  }
+
+  // All bits of the lanes that share a vertex; each vertex of `own` is a row of 8 after the one before.
+  __attribute__((always_inline)) static I8 sharing(const int* own, const int* others) {
+    I8 shared = broadcast(own[0]) == load(others);
+    for (int j = 0; j < kOwn; ++j)
+      for (int k = j == 0; k < kOther; ++k)
+        shared = shared | (broadcast(own[j * kBlock]) == load(others + k * kBlock));
+    return shared;
+  }
+
+  const int* key_of(unsigned slot) const {
+    return t_.query.keys + std::size_t(slot / kBlock) * (3 * kBlock) + slot % kBlock;
+  }
+
+  // The sign of each lane whose key cannot meet that of c: keys_meet in scene/primitive_filter.hpp, but for
+  // two static primitives, whose trees are never traversed together.
+  I8 apart(unsigned c, unsigned b) const {
+    const int *own = key_of(c), *keys = t_.tree.keys + std::size_t(b) * (3 * kBlock);
+    const I8 bodies = load(t_.tree.bodies[0] + std::size_t(b) * kBlock), none = broadcast(0);
+    const I8 same_body = (broadcast(t_.query.bodies[0][c]) == bodies) & bodies;
+    const I8 masked = ((broadcast(own[kBlock]) & load(keys + 2 * kBlock)) == none) |
+                      ((broadcast(own[2 * kBlock]) & load(keys + kBlock)) == none);
+    return same_body | masked;
+  }
+
+  int without_excluded(int mask, unsigned c, unsigned b) const {
+    if ((key_of(c)[0] & 1) == 0) return mask;
+    const int* flags = t_.tree.keys + std::size_t(b) * (3 * kBlock);
+    for (int open = mask; open != 0; open &= open - 1) {
+      const int lane = lowest_lane(open);
+      if ((flags[lane] & 1) != 0 && t_.excluded(t_.context, t_.query.ids[c], t_.tree.ids[b * kBlock + lane]))
+        mask &= ~(1 << lane);
+    }
+    return mask;
+  }
+
+  // Lanes of `mask` for which signs in float may not tell: of boxes that pass, all that overlap at neither end, or only
+  // touch there; else those that touch, where some axis is rounded.
+  static int in_doubt(int mask, const Reach& r, bool rounded) {
+    if (kPassing) return mask == 0 ? 0 : mask & mask_not_positive(r.at_start) & mask_not_positive(r.at_end);
+    return rounded ? mask & mask_zero(r.at_both) : 0;
+  }
+
+  // Puts off those of these lanes that float cannot decide; returns them. (Not inlined: the loop that it is called from has
+  // no register to spare.)
+  __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
+    if (!kPassing)
+      doubt &= touching<kMotion>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
+    doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
+    if (doubtful_.full()) settle_doubtful();
+    return doubt;
+  }
+
+  // What is in doubt, eight pairs at a time: decided in float where that will do, else in double.
+  void settle_doubtful() {
+    const Leaves query(t_.query), tree(t_.tree);
+    for (int first = 0; first < doubtful_.count; first += kLanes) {
+      const int *a = doubtful_.a + first, *b = doubtful_.b + first, left = doubtful_.count - first;
+      const int lanes = left < kLanes ? (1 << left) - 1 : 0xff;
+      Closer p{0, 0xff};
+      if (kPassing && t_.linear) p = compare(a, b, left);
+      for (int open = lanes & ~p.apart; open != 0; open &= open - 1) {
+        const int lane = lowest_lane(open), x = query.ids[a[lane]], y = tree.ids[b[lane]];
+        if ((p.unsure >> lane & 1) != 0 && !t_.meets(t_.context, x, y)) continue;
+        out_[count_++] = kEdges && y < x ? IdPair{y, x} : IdPair{x, y};
+        if (count_ > kBatchSize - kLanes) flush();
+      }
+    }
+    doubtful_.count = 0;
+  }
+
+  // Eight leaves against eight others.
+  Closer compare(const int* a, const int* b, int count) const {
+    const Leaves query(t_.query), tree(t_.tree);
+    const float *boxes_a[kLanes], *boxes_b[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const int from = l < count ? l : 0;
+      boxes_a[l] = query.box(unsigned(a[from])), boxes_b[l] = tree.box(unsigned(b[from]));
+    }
+    return look_closer([&](int k) {
+      const int across = opposite(k);
+      return Direction{collect(boxes_a, across * kLanes), collect(boxes_a, (6 + across) * kLanes), collect(boxes_b, k * kLanes),
+                       collect(boxes_b, (6 + k) * kLanes)};
+    });
+  }
+
+  void flush() {
+    if (count_ > 0) t_.consume(t_.consume_context, out_, count_);
+    count_ = 0;
+  }
+
+  const TraverseArguments& t_;
+  Pairs blocks_[kMaxLevels], children_[2], doubtful_;
+  std::size_t count_ = 0;
+  IdPair out_[kBatchSize];
+};
+
+template <BoxTest kTest, Sides kSides, bool kSelf = false>
+void traverse_sides(const TraverseArguments& a) {
+  a.keyed ? Traversal<kTest, kSides, kSelf, true>(a).run() : Traversal<kTest, kSides, kSelf, false>(a).run();
+}
+
+template <BoxTest kTest>
+void traverse_boxes(const TraverseArguments& a) {
+  if (a.sides == Sides::vertices_faces)
+    traverse_sides<kTest, Sides::vertices_faces>(a);
+  else if (a.self)
+    traverse_sides<kTest, Sides::edges_edges, true>(a);
+  else
+    traverse_sides<kTest, Sides::edges_edges>(a);
+}
+
+}  // namespace
+
+void traverse(const TraverseArguments& arguments) {
+  if (arguments.sides == Sides::edges_faces)
+    return traverse_sides<BoxTest::swept, Sides::edges_faces>(arguments);
+  switch (arguments.test) {
+    case BoxTest::swept: return traverse_boxes<BoxTest::swept>(arguments);
+    case BoxTest::motion: return traverse_boxes<BoxTest::motion>(arguments);
+    case BoxTest::passing: return traverse_boxes<BoxTest::passing>(arguments);
+  }
+}
+
+}  // namespace ONSET_KERNEL
+}  // namespace onset

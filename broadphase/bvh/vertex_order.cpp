@@ -1,0 +1,99 @@
+#include "broadphase/bvh/vertex_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "broadphase/bvh/space_curve.hpp"
+
+namespace onset {
+
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+constexpr std::ptrdiff_t kLongRun = 16;  // primitives of one lowest rank, as around a hub
+
+struct RankRange {
+  int lowest, highest;
+};
+
+RankRange rank_range(const MeshData& mesh, Primitive kind, const int* rank, int id) {
+  if (kind == Primitive::vertex) return {rank[id], rank[id]};
+  if (kind == Primitive::edge) {
+    const int a = rank[mesh.edges[std::size_t(id)][0]], b = rank[mesh.edges[std::size_t(id)][1]];
+    return {std::min(a, b), std::max(a, b)};
+  }
+  const auto& f = mesh.faces[std::size_t(id)];
+  const int a = rank[f[0]], b = rank[f[1]], c = rank[f[2]];
+  return {std::min(a, std::min(b, c)), std::max(a, std::max(b, c))};
+}
+
+// By highest rank, then by id.
+void sort_run(const MeshData& mesh, Primitive kind, const int* rank, int* first, int* last) {
+  std::vector<std::pair<int, int>> keys;
+  for (const int* id = first; id != last; ++id)
+    keys.emplace_back(rank_range(mesh, kind, rank, *id).highest, *id);
+  std::sort(keys.begin(), keys.end());
+  for (const auto& key : keys) *first++ = key.second;
+}
+
+}  // namespace
+
+double roughness(const VertexOrder& order, const Motion& motion) {
+  constexpr std::size_t kSamples = 512;
+  const std::size_t count = order.vertex.size(), step = std::max<std::size_t>(1, count / kSamples);
+  const auto distance = [&](std::size_t r, std::size_t q) {
+    const double *x = motion.t0(order.vertex[r]), *y = motion.t0(order.vertex[q]);
+    return std::fabs(x[0] - y[0]) + std::fabs(x[1] - y[1]) + std::fabs(x[2] - y[2]);
+  };
+  double near = 0, far = 0;
+  for (std::size_t r = 0; r + 1 < count; r += step)
+    near += distance(r, r + 1), far += distance(r, (r + count / 2) % count);
+  return far > 0 ? near / far : 0;
+}
+
+VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices) {
+  const std::size_t count = vertices.count;
+  std::vector<float> points(3 * count);  // twice the middle of the motion
+  parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      const int v = vertices[k];
+      for (std::size_t i = 0; i < 3; ++i)
+        points[3 * k + i] = map(motion.t0(v)[i], i) + map(motion.t1(v)[i], i);
+    }
+  });
+  VertexOrder result;
+  result.vertex.resize(count), result.rank.resize(std::size_t(motion.num_vertices));
+  order_along_curve(points.data(), count, result.vertex.data());
+  if (vertices.ids)
+    for (int& v : result.vertex) v = vertices[std::size_t(v)];
+  for (std::size_t r = 0; r < count; ++r) result.rank[std::size_t(result.vertex[r])] = int(r);
+  return result;
+}
+
+void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
+                      int* ids) {
+  const std::size_t count = list.count;
+  if (count == 0) return;  // no ids can be the data() of an empty list, too
+  if (kind == Primitive::vertex && !list.ids) {
+    std::copy(order.vertex.begin(), order.vertex.end(), ids);
+    return;
+  }
+  const int* rank = order.rank.data();
+  AlignedArray<int> lowest(count);
+  parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) lowest[i] = rank_range(mesh, kind, rank, list[i]).lowest;
+  });
+  std::vector<int> start(order.vertex.size(), 0);
+  for (std::size_t i = 0; i < count; ++i) ++start[std::size_t(lowest[i])];
+  int sum = 0;
+  for (int& n : start) sum += std::exchange(n, sum);
+  for (std::size_t i = 0; i < count; ++i) ids[start[std::size_t(lowest[i])]++] = list[i];
+  for (std::size_t r = 0, first = 0; r < start.size();
+       first = std::size_t(start[r++]))  // start: now where runs end
+    if (start[r] - std::ptrdiff_t(first) > kLongRun) sort_run(mesh, kind, rank, ids + first, ids + start[r]);
+}
+
+}  // namespace onset

@@ -1,2 +1,0 @@
-#define ONSET_KERNEL bvh_scalar
-#include "broadphase/bvh_kernel.inl"
