@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "base/parallel.hpp"
+#include "broadphase/bvh/float_boxes.hpp"
 #include "broadphase/cell_grid.hpp"
 #include "scene/pair_sink.hpp"
-#include "broadphase/bvh/float_boxes.hpp"
 
 namespace onset {
 

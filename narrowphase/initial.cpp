@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "narrowphase/orientation.hpp"
+#include "narrowphase/exact/orientation.hpp"
 #include "narrowphase/vec.hpp"
 
 namespace onset {

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "narrowphase/corners.hpp"
-#include "narrowphase/exact.hpp"
-#include "narrowphase/kernel.hpp"
+#include "narrowphase/exact/exact.hpp"
+#include "narrowphase/kernel/kernel.hpp"
 #include "narrowphase/vec.hpp"
 
 namespace onset {

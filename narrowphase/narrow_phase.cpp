@@ -7,7 +7,7 @@
 #include "narrowphase/inclusion.hpp"
 #include "narrowphase/initial.hpp"
 #include "narrowphase/interval_certificate.hpp"
-#include "narrowphase/kernels.hpp"
+#include "narrowphase/kernel/kernels.hpp"
 #include "narrowphase/pair_decision.hpp"
 
 namespace onset {

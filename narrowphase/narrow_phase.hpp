@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "narrowphase/corners.hpp"
-#include "narrowphase/exact.hpp"
-#include "narrowphase/float_positions.hpp"
+#include "narrowphase/exact/exact.hpp"
 #include "narrowphase/initial.hpp"
-#include "narrowphase/kernel.hpp"
+#include "narrowphase/kernel/float_positions.hpp"
+#include "narrowphase/kernel/kernel.hpp"
 #include "onset/options.hpp"
 #include "scene/motion.hpp"
 #include "scene/pair_sink.hpp"

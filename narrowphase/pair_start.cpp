@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "narrowphase/closest_points.hpp"
-#include "narrowphase/kernels.hpp"
-#include "narrowphase/maximum_norm.hpp"
+#include "narrowphase/distance/closest_points.hpp"
+#include "narrowphase/distance/maximum_norm.hpp"
+#include "narrowphase/kernel/kernels.hpp"
 #include "narrowphase/pair_decision.hpp"
 
 namespace onset {

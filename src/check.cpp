@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/dispatch.hpp"
-#include "narrowphase/edge_face.hpp"
+#include "narrowphase/at_rest/edge_face.hpp"
 #include "src/checked_options.hpp"
 #include "src/clock.hpp"
 #include "src/places.hpp"

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/parallel.hpp"
-#include "narrowphase/closest_points.hpp"
+#include "narrowphase/distance/closest_points.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
-#include "narrowphase/contact_frame.hpp"
+#include "narrowphase/distance/contact_geometry.hpp"
 
 namespace onset {
 namespace {

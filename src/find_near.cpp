@@ -1,7 +1,7 @@
 #include <array>
 
-#include "narrowphase/exact.hpp"
-#include "narrowphase/within_cube.hpp"
+#include "narrowphase/at_rest/within_cube.hpp"
+#include "narrowphase/exact/exact.hpp"
 #include "src/close_set.hpp"
 #include "src/rest_pairs.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/dispatch.hpp"
-#include "narrowphase/edge_face.hpp"
+#include "narrowphase/at_rest/edge_face.hpp"
 #include "src/checked_options.hpp"
 #include "src/clock.hpp"
 #include "src/rest_pairs.hpp"

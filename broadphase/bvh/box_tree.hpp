@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/aligned.hpp"
-#include "broadphase/bvh/kernel.hpp"
 #include "broadphase/bvh/float_boxes.hpp"
+#include "broadphase/bvh/kernel.hpp"
 #include "broadphase/bvh/vertex_order.hpp"
 
 namespace onset {

@@ -1,7 +1,7 @@
 // A generated query as the exact decision takes it.
 #pragma once
 
-#include "narrowphase/exact.hpp"
+#include "narrowphase/exact/exact.hpp"
 #include "tests/scenes/query.hpp"
 
 namespace onset::scenes {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "narrowphase/float_positions.hpp"
-#include "narrowphase/kernel.hpp"
+#include "narrowphase/kernel/float_positions.hpp"
+#include "narrowphase/kernel/kernel.hpp"
 #include "tests/scenes/query.hpp"
 
 namespace onset::tests {

@@ -2,7 +2,7 @@
 // `unit`.
 #pragma once
 
-#include "narrowphase/kernel.hpp"
+#include "narrowphase/kernel/kernel.hpp"
 
 namespace onset::tests {
 

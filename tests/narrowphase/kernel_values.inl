@@ -1,6 +1,6 @@
 // Included once per way of compiling, with ONSET_KERNEL, ONSET_KERNEL_VALUES, ONSET_CERTIFICATES and
 // ONSET_CONTACT_VALUES defined.
-#include "narrowphase/kernel_text.inl"
+#include "narrowphase/kernel/kernel_text.inl"
 #include "tests/narrowphase/kernel_values.hpp"
 
 namespace onset {

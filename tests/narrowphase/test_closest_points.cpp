@@ -1,7 +1,7 @@
 // Closest points, their direction and the certified bounds of the distance, against exact arithmetic.
 //
 // ONSET_FUZZ=1000 for a long run, ONSET_SEED=n for other pairs.
-#include "narrowphase/closest_points.hpp"
+#include "narrowphase/distance/closest_points.hpp"
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact_pair.hpp"
 #include "tests/narrowphase/fuzz.hpp"

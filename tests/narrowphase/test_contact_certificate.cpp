@@ -1,4 +1,4 @@
-// The errors of the certificate that a contact is real (narrowphase/contact_certificate.inl) against its
+// The errors of the certificate that a contact is real (narrowphase/kernel/contact_certificate.inl) against its
 // bounds, in exact arithmetic.
 #include "onset/options.hpp"
 #include "tests/catch.hpp"

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "narrowphase/edge_face.hpp"
-#include "narrowphase/exact.hpp"
+#include "narrowphase/at_rest/edge_face.hpp"
+#include "narrowphase/exact/exact.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/edge_face.hpp"
 #include "tests/oracle/promises.hpp"

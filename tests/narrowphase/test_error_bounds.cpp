@@ -27,7 +27,7 @@ struct Input {
   bool diagonal = false;  // every axis as the first one: what one of them errs by, all do, in the same sense
 };
 
-// |w| <= 1 after rounding, or a little more, as narrowphase/direction.inl leaves it.
+// |w| <= 1 after rounding, or a little more, as narrowphase/kernel/direction.inl leaves it.
 void set_direction(double (&w)[3], Point p) {
   const double n = std::hypot(p[0], p[1], p[2]);
   for (int a = 0; a < 3; ++a) w[a] = n > 0 ? p[a] / n : 0;
@@ -161,7 +161,7 @@ double ratio(const Rational& error, double bound) {
   return static_cast<double>(abs(error) / Rational(bound));
 }
 
-// The bounds, as they stand in narrowphase/certificates.inl and advance.inl.
+// The bounds, as they stand in narrowphase/kernel/certificates.inl and advance.inl.
 double fixed_ratio(Compute values, const Input& in) {
   const KernelValues v = compute(values, in);
   const ExactPair pair(in.query, v.unit);

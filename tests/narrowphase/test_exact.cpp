@@ -1,6 +1,6 @@
 // The exact decision in integers against the rational oracle, which shares no code with it.
 // ONSET_FUZZ=100 for a long run, ONSET_SEED=n for other queries.
-#include "narrowphase/exact_complete.hpp"
+#include "narrowphase/exact/complete.hpp"
 #include "onset/mesh.hpp"
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact_query.hpp"

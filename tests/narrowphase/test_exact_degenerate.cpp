@@ -1,9 +1,9 @@
 // Zeros in integers of fixed width, against integers of any size: quadratics that vanish at a cubic's root,
 // motion in one plane or on one line.
-#include "narrowphase/exact_common_root.hpp"
-#include "narrowphase/exact_complete.hpp"
-#include "narrowphase/exact_coplanar.hpp"
-#include "narrowphase/integer_polynomial.hpp"
+#include "narrowphase/exact/common_root.hpp"
+#include "narrowphase/exact/complete.hpp"
+#include "narrowphase/exact/coplanar.hpp"
+#include "narrowphase/exact/integer_polynomial.hpp"
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact_query.hpp"
 #include "tests/oracle/promises.hpp"

@@ -1,6 +1,6 @@
 // The integers and polynomials that the exact decision stands on.
-#include "narrowphase/integer_polynomial.hpp"
-#include "narrowphase/wide.hpp"
+#include "narrowphase/exact/integer_polynomial.hpp"
+#include "narrowphase/exact/wide.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/random.hpp"
 

@@ -1,5 +1,5 @@
 // Resting contact is not contact: a pair that starts apart and never loses three quarters of its gap is free,
-// however the gap compares with the tolerance (narrowphase/advance.inl, stop rule).
+// however the gap compares with the tolerance (narrowphase/kernel/advance.inl, stop rule).
 #include "tests/catch.hpp"
 #include "tests/narrowphase/fuzz.hpp"
 #include "tests/narrowphase/samples.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "narrowphase/orientation.hpp"
+#include "narrowphase/exact/orientation.hpp"
 #include "tests/catch.hpp"
 
 using Rational = boost::multiprecision::cpp_rational;

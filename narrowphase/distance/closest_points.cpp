@@ -1,0 +1,176 @@
+#include "narrowphase/distance/closest_points.hpp"
+
+#include "narrowphase/distance/precise_differences.hpp"
+
+namespace onset {
+namespace {
+
+double largest_corner(const Differences<double>& d) {
+  double r = 0;
+  for (int k = 0; k < d.corners(); ++k) r = std::max(r, dot(d.corner[k], d.corner[k]));
+  return std::sqrt(r);
+}
+
+// U and V to multiples of 2^-52, which moves the point by no more than u |a| + 2u |b|.
+struct Foot {
+  double U, V;
+};
+Foot rounded(PairKind kind, double U, double V) {
+  const Foot r{std::clamp((1 + U) - 1, 0.0, 1.0), std::clamp((1 + V) - 1, 0.0, 1.0)};
+  return kind == PairKind::vertex_face ? Foot{r.U, std::min(r.V, 1 - r.U)} : r;
+}
+
+void put_weights(PairKind kind, const Foot& f, double (&w)[4]) {
+  const bool triangle = kind == PairKind::vertex_face;
+  w[0] = triangle ? 1 : 1 - f.U, w[1] = triangle ? -(1 - f.U - f.V) : f.U;
+  w[2] = triangle ? -f.U : -(1 - f.V), w[3] = -f.V;
+  for (double& x : w) x += 0.0;  // no -0
+}
+
+void put_direction(const Vec& n, double (&direction)[3]) {
+  for (int i = 0; i < 3; ++i) direction[i] = n[i] + 0.0;
+}
+
+// Convexly, from the corners: each is off by u of its size; with a triangle's exact weights the products and
+// two sums add 3u, with a square's two rounds of a product and a sum 4u: below 5u rho in all.
+Vec point_at(const Differences<double>& d, const Foot& f) {
+  const Vec(&c)[4] = d.corner;
+  if (d.kind == PairKind::vertex_face) return ((1 - f.U - f.V) * c[0] + f.U * c[1]) + f.V * c[2];
+  const Vec first = (1 - f.V) * c[0] + f.V * c[1], second = (1 - f.V) * c[2] + f.V * c[3];
+  return (1 - f.U) * first + f.U * second;
+}
+
+// In units of the pair. A point's length is off by 5u rho and, with the square root, 2.5u of itself. A
+// margin: the products with a corner by 4u |n| rho, its own u included, the length of n and the quotient
+// by 3.5u of the result. Both stay below 8u rho, second order included; `blur` is what else the differences
+// are off by.
+struct Bounds {
+  double distance, lower, upper;
+};
+constexpr double kRounding = 0x1p-50, kWidest = 0x1.8p-48;  // 8u, 48u
+
+// In doubles; false: they do not tell, be it for a tie, for a primitive that is too thin, or as the pair may
+// touch.
+bool look(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
+  const Plane<double> plane(d);
+  Nearest<double> nearest;
+  nearest.inside = plane.resolved && foot_on_plane(d, plane, nearest);
+  if (nearest.inside) {
+    const Vec n = plane.normal();
+    nearest.direction = dot(n, d.q) < 0 ? -1 * n : n;
+  } else {
+    nearest = nearest_on_sides(d);
+  }
+  const double rho = largest_corner(d) * (1 + 0x1p-50), error = kRounding * rho + 2 * blur;
+  double most = margin(d, nearest.direction);
+  const Foot foot = rounded(d.kind, nearest.U, nearest.V);
+  const Vec w = point_at(d, foot);
+  bounds.distance = std::sqrt(dot(w, w));
+  bounds.upper = bounds.distance + error;
+  if (plane.resolved && !nearest.inside && bounds.upper - (most - error) > kWidest * rho + 8 * blur) {
+    const Vec n = plane.normal(), towards = dot(n, d.q) < 0 ? -1 * n : n;
+    if (const double across = margin(d, towards); across > most) most = across, nearest.direction = towards;
+  }
+  bounds.lower = most - error;
+  put_weights(d.kind, foot, r.weights);
+  put_direction(unit(nearest.direction), r.direction);
+  r.square = nearest.inside;
+  return bounds.lower > 0 && bounds.upper - bounds.lower <= kWidest * rho + 8 * blur;
+}
+
+VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
+  const DoubleDouble nn = dot(n, n);
+  return nn.hi > 0x1p-400 ? (DoubleDouble(1.0) / sqrt(nn)) * n : VecOf<DoubleDouble>{};
+}
+
+// In double-doubles all features are found, and directions made square to them, within 2^-98 rho: a direction
+// that is off by that relative to the distance costs the far ends of a feature 2^-98 rho^2 / distance of
+// their margin, less than 4u rho where the distance is more than 2^-47 rho; where it is less, 0 is close
+// enough a bound.
+void look_closer(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
+                 Bounds& bounds) {
+  using V = VecOf<DoubleDouble>;
+  const Plane<DoubleDouble> plane(d);
+  const auto towards = [&](const V& n) { return dot(n, d.q).hi < 0 ? DoubleDouble(-1.0) * n : n; };
+  Nearest<DoubleDouble> nearest;
+  nearest.inside = plane.resolved && foot_on_plane(d, plane, nearest);
+  if (!nearest.inside) nearest = nearest_on_sides(d);
+  if (nearest.inside) nearest.direction = towards(plane.normal());
+  DoubleDouble most = margin(d, nearest.direction);
+  if (plane.resolved && !nearest.inside) {
+    const V n = towards(plane.normal());
+    if (const DoubleDouble across = margin(d, n); across > most) most = across, nearest.direction = n;
+  }
+  const Foot foot = rounded(d.kind, nearest.U.hi, nearest.V.hi);
+  const V w = (d.q - DoubleDouble(foot.U) * d.a) - DoubleDouble(foot.V) * d.b;
+  // Products with a corner and the quotient by its length err by less than 80 u^2, a point by less than 60
+  // u^2 of rho.
+  const double error = 0x1p-98 * rho + 2 * blur;
+  bounds.distance = sqrt(dot(w, w)).hi;
+  bounds.upper = bounds.distance * (1 + 0x1p-50) + error;
+  bounds.lower = std::max(most.hi * (1 - 0x1p-51) - error, 0.0);
+  put_weights(d.kind, foot, r.weights);
+  const V n = unit(nearest.direction);
+  put_direction(rounded(n), r.direction);
+  r.square = nearest.inside;
+}
+
+ClosestPoints in_model_length(ClosestPoints r, const Bounds& b, double scale) {
+  const double unit = 1 / scale, last = 0x1p-1074;
+  r.distance = b.distance * unit, r.lower = std::max(b.lower * unit - last, 0.0),
+  r.upper = b.upper * unit + last;
+  return r;
+}
+
+ClosestPoints at_one_place(PairKind kind) {
+  ClosestPoints r{};
+  put_weights(kind, {0, 0}, r.weights);
+  r.upper = 0x1p-1074;
+  return r;
+}
+
+}  // namespace
+
+ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]) {
+  const double largest = largest_corner_component(kind, x), scale = inverse_unit(largest);
+  if (largest == 0) return at_one_place(kind);
+  ClosestPoints r;
+  Bounds bounds;
+  const Differences<double> d = rounded_differences(kind, x, scale);
+  if (!look(d, 0, r, bounds))
+    look_closer(precise_differences(kind, x, scale), largest_corner(d), 0, r, bounds);
+  return in_model_length(r, bounds, scale);
+}
+
+bool quick_closest_points(const Differences<double>& d, double blur, ClosestPoints& r) {
+  Bounds bounds;
+  const bool told = look(d, blur, r, bounds);
+  r.distance = bounds.distance, r.lower = bounds.lower, r.upper = bounds.upper;
+  return told;
+}
+
+ClosestPoints precise_closest_points(const Differences<DoubleDouble>& d, double blur) {
+  double rho2 = 0;
+  for (int k = 0; k < d.corners(); ++k) rho2 = std::max(rho2, dot(d.corner[k], d.corner[k]).hi);
+  ClosestPoints r;
+  Bounds bounds;
+  look_closer(d, std::sqrt(rho2), blur, r, bounds);
+  r.distance = bounds.distance, r.lower = bounds.lower, r.upper = bounds.upper;
+  return r;
+}
+
+ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
+                             double t) {
+  const PreciseMotion motion(kind, x0, x1);
+  if (motion.size == 0) return at_one_place(kind);
+  const Differences<DoubleDouble> precise = motion.at(t);
+  Differences<double> d{kind, rounded(precise.q), rounded(precise.a), rounded(precise.b), {}};
+  for (int k = 0; k < d.corners(); ++k) d.corner[k] = rounded(precise.corner[k]);
+  const double blur = motion.blur(t);
+  ClosestPoints r;
+  Bounds bounds;
+  if (!look(d, blur, r, bounds)) look_closer(precise, largest_corner(d), blur, r, bounds);
+  return in_model_length(r, bounds, 1 / motion.unit);
+}
+
+}  // namespace onset

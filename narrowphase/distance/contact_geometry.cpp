@@ -1,0 +1,202 @@
+#include "narrowphase/distance/contact_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "narrowphase/distance/closest_points.hpp"
+#include "narrowphase/distance/precise_differences.hpp"
+#include "narrowphase/exact/complete.hpp"
+#include "narrowphase/kernel/kernels.hpp"
+
+namespace onset {
+namespace {
+
+// Of the pair's size. A gap that is wider gives a direction that neither the rounding of t nor that of the
+// weights, each a few 2^-53 of the size, can turn by much.
+constexpr double kResolved = 0x1p-46;
+// Of a length: what rounding in doubles leaves of a product or a part of it that is 0.
+constexpr double kNothing = 0x1p-40;
+
+double length(const Vec& v) { return std::sqrt(dot(v, v)); }
+
+// Exchanging axes an odd number of times turns a cross product round.
+bool odd(const std::array<int, 3>& axes) { return (axes[1] - axes[0] + 3) % 3 != 1; }
+
+Vec square_to(const Vec& e) {
+  Vec axis{};
+  int least = 2;
+  for (int i = 1; i >= 0; --i)
+    if (std::fabs(e[i]) < std::fabs(e[least])) least = i;
+  axis[least] = 1;
+  const Vec n = cross(e, axis);
+  return dot(n, n) > 0 ? unit(n) : axis;
+}
+
+double coordinate(const double (&weights)[4], PairKind kind) {  // U
+  return kind == PairKind::vertex_face ? -weights[2] : weights[1];
+}
+
+// How p1 - p2 changes over the whole step.
+VecOf<DoubleDouble> motion_of(const PreciseMotion& m, const double (&weights)[4]) {
+  const DoubleDouble U = coordinate(weights, m.start.kind), V = -weights[3];
+  return ((m.end.q - m.start.q) - U * (m.end.a - m.start.a)) - V * (m.end.b - m.start.b);
+}
+
+// A pair whose gap does not give its normal: it touches, or is at a boundary with next to no gap.
+class Touching {
+ public:
+  Touching(const ExactPair& pair, const Differences<DoubleDouble>& d, const ClosestPoints& near, double size,
+           const Vec& past, double t, bool odd_axes)
+      : pair_(pair), d_(d), near_(near), plane_(d), size_(size), past_(past), t_(t), odd_axes_(odd_axes) {
+    if (plane_.resolved) across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
+  }
+
+  // Inside both primitives: across the plane, on the side that the pair came from. 0: not known.
+  int side() const {
+    const int s = side_before(pair_, t_);  // of a x b, with the form of the exact decision
+    return pair_.kind == PairKind::vertex_face ? s : -s;
+  }
+  Vec inside(int side) const {
+    if (side != 0) return double(side) * across_;
+    const double towards = dot(across_, past_);
+    return std::fabs(towards) > kNothing * length(past_) ? (towards > 0 ? across_ : -1 * across_) : wound();
+  }
+
+  // At a boundary: along p1 - p2, or across the plane, if that is where the pair came from; else along its
+  // way.
+  Vec at_boundary() const {
+    const Vec direction = vec(near_.direction);
+    if (near_.lower > 0 && came_along(direction)) return direction;
+    if (plane_.resolved && came_from(across_))
+      if (const Vec n = double(side_here()) * across_; came_along(n)) return n;
+    return along_way();
+  }
+
+ private:
+  bool came_along(const Vec& n) const { return dot(n, past_) > kNothing * length(past_); }
+  bool came_from(const Vec& n) const { return came_along(n) || came_along(-1 * n); }
+  int side_here() const {
+    const VecOf<DoubleDouble> n = plane_.normal();
+    const double here = dot(d_.q, n).hi;
+    const bool told = std::fabs(here) > 0x1p-90 * size_ * length(rounded(n));
+    return !told ? side() : (here > 0) != plane_.swapped ? 1 : -1;
+  }
+  // The winding decides on either side of a face, or between edges, that nothing moves from.
+  Vec wound() const { return odd_axes_ ? -1 * across_ : across_; }
+
+  // Within the plane; or square to the longest edge, or along it, end on end. At rest p1 - p2 decides, or the
+  // winding, or, without one, any direction square to the edge.
+  Vec along_way() const {
+    const bool thin = !(plane_.width2.hi > 0x1p-80 * plane_.length2.hi);
+    const Vec e = thin ? unit(rounded(plane_.along)) : Vec{}, n = past_ - dot(past_, e) * e;
+    if (length(n) > kNothing * length(past_)) return unit(n - dot(n, e) * e);
+    if (length(past_) > 0) return unit(past_);
+    if (near_.lower > 0) return vec(near_.direction);
+    return thin ? square_to(e) : wound();
+  }
+
+  const ExactPair& pair_;
+  const Differences<DoubleDouble>& d_;
+  const ClosestPoints& near_;
+  const Plane<DoubleDouble> plane_;
+  const double size_;
+  const Vec past_;
+  const double t_;
+  const bool odd_axes_;
+  Vec across_{};  // a x b
+};
+
+// Lengths in units of the pair.
+struct Frame {
+  ClosestPoints near;
+  Vec normal;
+  double speed, unit;
+  bool degenerate;
+};
+
+// In doubles, where the gap is wide and the motion along it, if there is any, more than rounding; false: not
+// so. Mixed differences are 4u of their sizes at both ends off. A direction whose margin is within 2^-47 of
+// the distance, both of the size, is within 2^-17 of the right one at worst, where features tie, and within
+// 2^-40 else. Motions are sums of three differences, 12u of their size off at either end.
+bool wide_frame(const ExactPair& pair, double t, Frame& f) {
+  const double scale = inverse_unit(
+      std::max(largest_corner_component(pair.kind, pair.t0), largest_corner_component(pair.kind, pair.t1)));
+  const Differences<double> start = rounded_differences(pair.kind, pair.t0, scale),
+                            end = rounded_differences(pair.kind, pair.t1, scale);
+  const auto mixed = [t](const Vec& x, const Vec& y) { return (1 - t) * x + t * y; };
+  Differences<double> d{pair.kind, mixed(start.q, end.q), mixed(start.a, end.a), mixed(start.b, end.b), {}};
+  for (int k = 0; k < d.corners(); ++k) d.corner[k] = mixed(start.corner[k], end.corner[k]);
+  constexpr double kLargest = 4;  // corners are no longer
+  if (!quick_closest_points(d, 0x1p-51 * kLargest, f.near) || !(f.near.lower > 0x1p-12 * kLargest))
+    return false;
+  const double U = coordinate(f.near.weights, pair.kind), V = -f.near.weights[3];
+  const auto at = [&](const Differences<double>& x) { return (x.q - U * x.a) - V * x.b; };
+  f.normal = vec(f.near.direction);
+  f.speed = dot(f.normal, at(end) - at(start));
+  f.unit = 1 / scale;
+  f.degenerate = false;
+  return std::fabs(f.speed) > 0x1p-46 * kLargest || (f.speed == 0 && rests(pair));
+}
+
+Frame precise_frame(const ExactPair& pair, double t, bool parting, bool odd_axes) {
+  const PreciseMotion precise(pair.kind, pair.t0, pair.t1);
+  const Differences<DoubleDouble> d = precise.at(t);
+  Frame f{precise_closest_points(d, precise.blur(t)), {}, 0, precise.unit, false};
+  f.normal = vec(f.near.direction);
+  const VecOf<DoubleDouble> moved = motion_of(precise, f.near.weights);
+  const bool inside =
+      f.near.square && std::none_of(f.near.weights, f.near.weights + 4, [](double w) { return w == 0; });
+  if (!(f.near.lower > (inside ? 0 : kResolved * precise.size))) {
+    const Vec past = rounded((parting ? 1.0 : -1.0) * moved);
+    const Touching touching(pair, d, f.near, precise.size, past, t, odd_axes);
+    const int side = inside ? touching.side() : 0;
+    f.normal = inside ? touching.inside(side) : touching.at_boundary();
+    f.degenerate = side == 0;
+  }
+  f.speed = dot(VecOf<DoubleDouble>{{f.normal[0], f.normal[1], f.normal[2]}}, moved).hi;
+  return f;
+}
+
+}  // namespace
+
+ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
+                           bool parting) {
+  const ExactPair pair = exact_pair(kind, motion, vertices);
+  Frame f;
+  if (!wide_frame(pair, t, f)) f = precise_frame(pair, t, parting, odd(motion.axes));
+  ContactFrame r;
+  std::copy(f.near.weights, f.near.weights + 4, r.weight.begin());
+  for (int i = 0; i < 3; ++i) r.normal[std::size_t(motion.axes[std::size_t(i)])] = f.normal[i] + 0.0;
+  r.gap = f.near.distance * f.unit;
+  r.speed = f.speed * f.unit + 0.0;
+  r.degenerate = f.degenerate;
+  return r;
+}
+
+void contact_frames(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
+                    const double* t, const bool* parting, std::size_t count, ContactFrame* frames) {
+  const KernelTable& kernels = kernels_for(kernel);
+  const auto of_kind = kind == PairKind::vertex_face ? kernels.frames_vertex_face : kernels.frames_edge_edge;
+  constexpr std::size_t kAtOnce = 64;
+  KernelFrame found[kAtOnce];
+  KernelPairs pairs{};
+  pairs.x = motion.x.data();
+  for (std::size_t first = 0; first < count; first += kAtOnce) {
+    pairs.vertices = reinterpret_cast<const int (*)[4]>(vertices + first);
+    pairs.count = int(std::min(kAtOnce, count - first));
+    of_kind(pairs, t + first, found);
+    for (int i = 0; i < pairs.count; ++i) {
+      const KernelFrame& f = found[i];
+      const std::size_t row = first + std::size_t(i);
+      ContactFrame& r = frames[row];
+      if (!f.ordinary) {
+        r = contact_frame(kind, motion, vertices[row], t[row], parting[row]);
+        continue;
+      }
+      r = {{f.weight[0], f.weight[1], f.weight[2], f.weight[3]}, {}, f.gap, f.speed, false};
+      for (std::size_t a = 0; a < 3; ++a) r.normal[std::size_t(motion.axes[a])] = f.normal[a];
+    }
+  }
+}
+
+}  // namespace onset
