@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "base/clock.hpp"
 #include "base/dispatch.hpp"
 #include "narrowphase/at_rest/edge_face.hpp"
-#include "src/checked_options.hpp"
-#include "src/clock.hpp"
-#include "src/places.hpp"
-#include "src/rest_pairs.hpp"
-#include "src/start_findings.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/start/places.hpp"
+#include "src/start/rest_pairs.hpp"
+#include "src/start/start_findings.hpp"
 
 namespace onset {
 namespace {

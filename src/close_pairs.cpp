@@ -1,9 +1,9 @@
 #include "onset/close_pairs.hpp"
 
 #include "base/parallel.hpp"
-#include "src/checked_options.hpp"
-#include "src/close_set.hpp"
-#include "src/scene.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/shared/close_set.hpp"
+#include "src/shared/step_setup.hpp"
 
 namespace onset {
 

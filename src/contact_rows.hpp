@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/motion.hpp"
-#include "src/pass.hpp"
+#include "src/shared/pair_traversal.hpp"
 
 namespace onset {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/clock.hpp"
 #include "base/dispatch.hpp"
 #include "narrowphase/at_rest/edge_face.hpp"
-#include "src/checked_options.hpp"
-#include "src/clock.hpp"
-#include "src/rest_pairs.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/start/rest_pairs.hpp"
 
 namespace onset {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "base/parallel.hpp"
 #include "narrowphase/narrow_phase.hpp"
-#include "src/checked_options.hpp"
-#include "src/close_set.hpp"
-#include "src/held_pairs.hpp"
-#include "src/pass.hpp"
-#include "src/scene.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/shared/close_set.hpp"
+#include "src/shared/pair_list.hpp"
+#include "src/shared/pair_traversal.hpp"
+#include "src/shared/step_setup.hpp"
 
 namespace onset {
 namespace {

@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/clock.hpp"
 #include "base/parallel.hpp"
-#include "src/checked_options.hpp"
-#include "src/clock.hpp"
-#include "src/held_step.hpp"
-#include "src/places.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/shared/step_of_pairs.hpp"
+#include "src/start/places.hpp"
 
 namespace onset {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
-#include "src/budget.hpp"
+#include "src/shared/budget.hpp"
 
 namespace onset {
 

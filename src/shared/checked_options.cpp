@@ -1,4 +1,4 @@
-#include "src/checked_options.hpp"
+#include "src/shared/checked_options.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "base/clock.hpp"
 #include "broadphase/broad_phase.hpp"
 #include "onset/mesh.hpp"
-#include "src/budget.hpp"
-#include "src/clock.hpp"
+#include "src/shared/budget.hpp"
 
 namespace onset {
 

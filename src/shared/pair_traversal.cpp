@@ -1,4 +1,4 @@
-#include "src/pass.hpp"
+#include "src/shared/pair_traversal.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "onset/close_pairs.hpp"
 #include "onset/intersections.hpp"
-#include "src/gather.hpp"
-#include "src/rest.hpp"
+#include "src/shared/gather.hpp"
+#include "src/start/rest.hpp"
 
 namespace onset {
 

@@ -1,4 +1,4 @@
-#include "src/rest.hpp"
+#include "src/start/rest.hpp"
 
 #include <utility>
 

@@ -1,10 +1,10 @@
-#include "src/held_step.hpp"
+#include "src/shared/step_of_pairs.hpp"
 
+#include "base/clock.hpp"
 #include "base/dispatch.hpp"
 #include "base/parallel.hpp"
-#include "src/checked_options.hpp"
-#include "src/clock.hpp"
-#include "src/pass.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/shared/pair_traversal.hpp"
 
 namespace onset {
 

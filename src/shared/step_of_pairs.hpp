@@ -3,7 +3,7 @@
 
 #include "onset/mesh.hpp"
 #include "scene/motion.hpp"
-#include "src/held_pairs.hpp"
+#include "src/shared/pair_list.hpp"
 
 namespace onset {
 

@@ -1,4 +1,4 @@
-#include "src/start_findings.hpp"
+#include "src/start/start_findings.hpp"
 
 #include <sstream>
 

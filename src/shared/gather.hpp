@@ -10,7 +10,7 @@
 
 #include "base/parallel.hpp"
 #include "scene/pair_sink.hpp"
-#include "src/budget.hpp"
+#include "src/shared/budget.hpp"
 
 namespace onset {
 

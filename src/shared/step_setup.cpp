@@ -1,4 +1,4 @@
-#include "src/scene.hpp"
+#include "src/shared/step_setup.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,8 +7,8 @@
 #include "base/parallel.hpp"
 #include "base/spares.hpp"
 #include "narrowphase/narrow_phase.hpp"
-#include "src/checked_options.hpp"
-#include "src/close_set.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/shared/close_set.hpp"
 
 namespace onset {
 

@@ -1,4 +1,4 @@
-#include "src/budget.hpp"
+#include "src/shared/budget.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "src/held_pairs.hpp"
+#include "src/shared/pair_list.hpp"
 
 #include <algorithm>
 #include <atomic>

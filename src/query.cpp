@@ -4,7 +4,7 @@
 #include "narrowphase/corners.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "onset/query.hpp"
-#include "src/checked_options.hpp"
+#include "src/shared/checked_options.hpp"
 
 namespace onset {
 namespace {

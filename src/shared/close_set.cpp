@@ -1,4 +1,4 @@
-#include "src/close_set.hpp"
+#include "src/shared/close_set.hpp"
 
 #include <algorithm>
 #include <cmath>

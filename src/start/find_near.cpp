@@ -2,8 +2,8 @@
 
 #include "narrowphase/at_rest/within_cube.hpp"
 #include "narrowphase/exact/exact.hpp"
-#include "src/close_set.hpp"
-#include "src/rest_pairs.hpp"
+#include "src/shared/close_set.hpp"
+#include "src/start/rest_pairs.hpp"
 
 namespace onset {
 namespace {

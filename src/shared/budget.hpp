@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/clock.hpp"
 #include "onset/options.hpp"
 #include "onset/result.hpp"
-#include "src/clock.hpp"
 
 namespace onset {
 

@@ -6,7 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "onset/check.hpp"
-#include "src/places.hpp"
+#include "src/start/places.hpp"
 
 namespace onset {
 

@@ -6,7 +6,7 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "onset/mesh.hpp"
-#include "src/budget.hpp"
+#include "src/shared/budget.hpp"
 
 namespace onset {
 

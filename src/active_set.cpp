@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "onset/pipeline.hpp"
+#include "src/contact_rows.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/shared/find_contacts.hpp"
+
+namespace onset {
+namespace {
+
+// The window and the memory limit cut off, in the order (toi, kind, a, b), what is later.
+void cut_off(std::vector<FoundPair>& found, const Options& options, const Budget& budget, ActiveSet& set) {
+  set.complete_until = std::numeric_limits<double>::infinity();
+  set.outcome = budget.outcome();
+  if (!found.empty() && options.window < 1) {
+    double earliest = found[0].result.toi;
+    for (const FoundPair& f : found) earliest = std::min(earliest, f.result.toi);
+    set.complete_until = earliest + options.window;
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const FoundPair& f) { return f.result.toi > set.complete_until; }),
+                found.end());
+  }
+  if (const std::size_t most = most_contacts(options); found.size() > most) {
+    std::nth_element(found.begin(), found.begin() + std::ptrdiff_t(most), found.end(), earlier);
+    set.complete_until = found[most].result.toi;
+    if (set.outcome == Outcome::free) set.outcome = Outcome::out_of_memory;
+    found.resize(most);
+    std::sort(found.begin(), found.end(), before);
+  }
+  if (budget.outcome() != Outcome::free) set.complete_until = 0;
+}
+
+}  // namespace
+
+ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                               const Options& options) {
+  check(options);
+  ActiveSet set;
+  in_arena(options.threads, [&] {
+    Budget budget(options);
+    Scene scene(mesh, x_t0, x_t1, options, Scene::Use::contacts, set.stats, budget);
+    set.outcome = scene.motion.status;
+    set.vertex = scene.motion.bad_vertex;
+    if (set.outcome != Outcome::free) return;
+    PassResult pass = scene.broad ? find_contacts(mesh, scene, options, Keep::all, budget, set.stats) : PassResult{};
+    const double begun = scene.clock.seconds();
+    note_worst(mesh, pass, set.stats);
+    cut_off(pass.found, options, budget, set);
+    if (budget.outcome() != Outcome::free) set.stats.looked_at = budget.done();
+    fill_rows(mesh, scene.motion, options.kernel, pass.found, set);
+    if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
+    set.stats.seconds_total = scene.clock.seconds();
+    set.stats.seconds_contacts = set.stats.seconds_total - begun;
+  });
+  return set;
+}
+
+}  // namespace onset

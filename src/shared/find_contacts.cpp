@@ -1,0 +1,109 @@
+#include "src/shared/find_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "broadphase/motion_box.hpp"
+#include "scene/primitive_filter.hpp"
+
+namespace onset {
+namespace {
+
+// One block in so many is sampled: fewer of many, as a few hundred tell as much.
+constexpr std::size_t kManyBlocks = 512;
+std::size_t sampled_stride(const BroadPhase& broad) {
+  return broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge) < kManyBlocks ? 64 : 256;
+}
+constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cost more than they spare
+
+// Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that horizon, and the whole is
+// passed once with a horizon that shrinks further. What is reported at t is within Scene::reach of what it must keep then, unless it
+// spends its checks, so boxes that are wider by that on [0, horizon] lose none that is reported by then: the result is the minimum of
+// the active set. What the sample found counts whatever the boxes say.
+//
+// Within a window: whatever the sample finds bounds the earliest contact, and the window begins there. A pair that is out of checks
+// says too little for either: whether its boxes meet by then is another matter.
+double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
+                         Budget& budget, Limits& sampled) {
+  if (!narrow.uses_horizon()) return 1;
+  sampled = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, sampled_stride(*scene.broad)).limits;
+  if (!sampled.contact) return 1;
+  sampled.stored = sampled.clear = {};  // the whole finds them
+  const PairResult& first = sampled.contact->result;
+  if (first.outcome == Outcome::budget) return 1;
+  // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
+  const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
+  const double horizon = keep == Keep::all ? latest_time(first) + options.window : limit;
+  if (horizon > kShrinksUpTo) return std::min(horizon, 1.0);
+  BroadPhaseInput shrunk =
+      keep == Keep::all
+          ? broad_phase_input(mesh.data(), scene.motion, options, scene.reach, horizon, BoxTest::motion)
+          : *scene.tree;
+  shrunk.horizon = horizon;
+  shrunk.test = BoxTest::motion;
+  scene.broad->refit(shrunk);
+  return horizon;
+}
+
+// The exact times of those that can be the earliest: none of the others is before the least toi_hi.
+void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) {
+  double latest = INFINITY;
+  for (const FoundPair& f : found)
+    if (f.result.outcome != Outcome::initial_separating) latest = std::min(latest, f.result.toi_hi);
+  for (FoundPair& f : found)
+    if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) narrow.sharpen(f.kind, f.result);
+}
+
+// One contact more than fits, where there is a limit: it tells until when the set is complete.
+PassBounds bounds(const Options& options) {
+  const bool limited = options.memory_limit < std::numeric_limits<std::int64_t>::max();
+  return {options.window, limited ? most_contacts(options) + 1 : std::numeric_limits<std::size_t>::max()};
+}
+
+// Whether the boxes of the whole step, as an active set has them, let a pair meet.
+bool is_candidate(const void* scene, PairKind kind, IdPair pair) {
+  return boxes_pass(*static_cast<const Scene*>(scene)->whole, kind, pair);
+}
+
+}  // namespace
+
+// 256 bytes a contact: a row of the set is 124; finding it takes 64 in arrays that grow to twice that, and
+// sorting it 32 and 64 more.
+constexpr std::int64_t kBytesAContact = 256;
+
+std::size_t most_contacts(const Options& options) {
+  return std::size_t(options.memory_limit / kBytesAContact);
+}
+
+PassResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget, Stats& stats) {
+  const double begun = scene.clock.seconds();
+  const PassBounds limited = keep == Keep::all ? bounds(options) : PassBounds{};
+  NarrowPhaseInput input{mesh.data(), scene.motion, stats.tolerance, stats.extent, options};
+  // All times in one order are exact, or none is.
+  input.exact_times = options.certainty == CertaintyLevel::exact &&
+                      (keep != Keep::all || limited.most < std::numeric_limits<std::size_t>::max());
+  // A pass over all vertices in every call is worth it unless most of them are static.
+  input.for_many = 2 * mesh.data().filter->static_ids.size() <= std::size_t(mesh.data().num_vertices);
+  const PairPredicate contacts{&scene, is_candidate};
+  if (keep == Keep::limiting) {
+    input.stored = true;
+    input.rounding = scene.rounding;
+    input.contacts = &contacts;
+  }
+  const NarrowPhase narrow(input);
+  const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
+  Limits sampled;
+  const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, sampled) : 1;
+  PassBounds limits = limited;
+  if (horizon <= kShrinksUpTo) limits.whole = &*scene.tree;
+  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1, limits);
+  if (keep == Keep::limiting) pass.limits.add(sampled);
+  if (keep == Keep::all) sharpen_earliest(narrow, pass.found);
+  copy_counts(pass, stats);
+  stats.seconds_narrow = scene.clock.seconds() - begun;
+  stats.seconds_total = scene.clock.seconds();
+  return pass;
+}
+
+}  // namespace onset

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "base/parallel.hpp"
+#include "onset/candidates.hpp"
+#include "onset/pipeline.hpp"
+#include "src/shared/checked_options.hpp"
+#include "src/shared/find_contacts.hpp"
+#include "src/shared/step_of_pairs.hpp"
+
+namespace onset {
+namespace {
+
+StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                         const Options& options, Keep keep) {
+  StepResult r;
+  Budget budget(options);
+  const Scene::Use use = keep == Keep::limiting ? Scene::Use::stored_step : Scene::Use::contacts;
+  Scene scene(mesh, x_t0, x_t1, options, use, r.stats, budget);
+  r.outcome = scene.motion.status;
+  r.vertex = scene.motion.bad_vertex;
+  if (r.outcome != Outcome::free) return r;
+  const PassResult pass = scene.broad ? find_contacts(mesh, scene, options, keep, budget, r.stats) : PassResult{};
+  limit_step(mesh, pass, budget, 1, 1, r);
+  r.rounding = reported_rounding(scene.rounding);
+  r.stats.seconds_total = scene.clock.seconds();
+  return r;
+}
+
+std::vector<IdPair> checked(const MeshData& mesh, PairKind kind,
+                            const std::vector<std::array<int, 2>>& list) {
+  const bool vf = kind == PairKind::vertex_face;
+  const int firsts = vf ? mesh.num_vertices : int(mesh.edges.size());
+  const int seconds = int(vf ? mesh.faces.size() : mesh.edges.size());
+  std::vector<IdPair> pairs;
+  pairs.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    IdPair p{list[i][0], list[i][1]};
+    const std::string row = (vf ? "vertex_face row " : "edge_edge row ") + std::to_string(i);
+    if (p.a < 0 || p.a >= firsts || p.b < 0 || p.b >= seconds)
+      throw std::invalid_argument(row + ": the mesh has no pair " + std::to_string(p.a) + ", " +
+                                  std::to_string(p.b));
+    if (!vf && p.a > p.b) std::swap(p.a, p.b);
+    const std::array<int, 4> v = pair_vertices(mesh, kind, p);
+    for (int k = vf ? 1 : 2; k < 4; ++k)
+      if (v[0] == v[std::size_t(k)] || (!vf && v[1] == v[std::size_t(k)]))
+        throw std::invalid_argument(row + ": the two share vertex " + std::to_string(v[std::size_t(k)]));
+    pairs.push_back(p);
+  }
+  return pairs;
+}
+
+}  // namespace
+
+StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                                           const Options& options) {
+  check(options);
+  StepResult r;
+  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::limiting); });
+  return r;
+}
+
+bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                            const Options& options) {
+  check(options);
+  StepResult r;
+  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::any); });
+  return r.outcome == Outcome::free && r.toi > 1;
+}
+
+StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& candidates,
+                                           const Positions& x_t0, const Positions& x_t1,
+                                           const Options& options, double keep) {
+  check(options);
+  check_keep(keep);
+  HeldPairs pairs;
+  pairs.of(PairKind::vertex_face) = checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face);
+  pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge);
+  StepResult r;
+  in_arena(options.threads, [&] {
+    const Clock clock;
+    Budget budget(options);
+    r = step_of(mesh, make_motion(mesh.data().num_vertices, x_t0, x_t1), pairs, options, keep, budget);
+    r.stats.seconds_total = clock.seconds();
+  });
+  return r;
+}
+
+}  // namespace onset
