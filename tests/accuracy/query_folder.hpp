@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/oracle/oracle.hpp"
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::accuracy {
 

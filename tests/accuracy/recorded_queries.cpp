@@ -15,8 +15,8 @@
 
 #include "onset/onset.hpp"
 #include "tests/accuracy/query_folder.hpp"
+#include "tests/queries/query_file.hpp"
 #include "tests/scenes/frame_file.hpp"
-#include "tests/scenes/query_file.hpp"
 
 using namespace onset;
 

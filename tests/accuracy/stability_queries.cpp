@@ -12,8 +12,8 @@
 #include <stdexcept>
 
 #include "tests/accuracy/query_folder.hpp"
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/scenes/random_query.hpp"
 
 using namespace onset;
 

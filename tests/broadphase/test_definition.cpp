@@ -5,7 +5,7 @@
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
-#include "tests/oracle/rational.hpp"
+#include "tests/oracle/arithmetic/rational.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -1,7 +1,7 @@
 // Widened coordinates contain the exact ones, and are not much wider.
 #include "broadphase/interval.hpp"
 #include "tests/catch.hpp"
-#include "tests/oracle/rational.hpp"
+#include "tests/oracle/arithmetic/rational.hpp"
 #include "tests/scenes/random.hpp"
 
 using namespace onset;

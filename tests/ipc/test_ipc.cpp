@@ -2,10 +2,10 @@
 #include <onset/ipc.hpp>
 
 #include "tests/catch.hpp"
-#include "tests/narrowphase/fuzz.hpp"
+#include "tests/fuzz.hpp"
 #include "tests/oracle/oracle.hpp"
-#include "tests/pipeline/mesh_pairs.hpp"
 #include "tests/scenes/meshes.hpp"
+#include "tests/src/support/mesh_pairs.hpp"
 
 namespace ipc = onset::ipc;
 using Eigen::MatrixXd;

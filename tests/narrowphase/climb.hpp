@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/catch.hpp"
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 #include "tests/scenes/random.hpp"
 
 namespace onset::tests {

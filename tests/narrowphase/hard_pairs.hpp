@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 #include "tests/scenes/random.hpp"
 
 namespace onset::tests {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "narrowphase/corners.hpp"
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::tests {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/scenes/random_query.hpp"
+#include "tests/queries/random_query.hpp"
 
 namespace onset::tests {
 

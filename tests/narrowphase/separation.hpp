@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/oracle/promises.hpp"
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::tests {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::tests {
 

@@ -3,12 +3,12 @@
 // ONSET_FUZZ=1000 for a long run, ONSET_SEED=n for other pairs.
 #include "narrowphase/distance/closest_points.hpp"
 #include "tests/catch.hpp"
-#include "tests/narrowphase/exact_pair.hpp"
-#include "tests/narrowphase/fuzz.hpp"
+#include "tests/fuzz.hpp"
+#include "tests/narrowphase/exact/exact_pair.hpp"
 #include "tests/narrowphase/hard_pairs.hpp"
 #include "tests/oracle/distance.hpp"
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/scenes/random_query.hpp"
 
 using namespace onset;
 using namespace onset::tests;

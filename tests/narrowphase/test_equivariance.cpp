@@ -3,11 +3,11 @@
 #include <string>
 
 #include "tests/catch.hpp"
-#include "tests/narrowphase/fuzz.hpp"
-#include "tests/narrowphase/kernels.hpp"
+#include "tests/fuzz.hpp"
+#include "tests/narrowphase/kernel/kernels.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/narrowphase/symmetries.hpp"
-#include "tests/scenes/random_query.hpp"
+#include "tests/queries/random_query.hpp"
 
 using namespace onset;
 using namespace onset::tests;

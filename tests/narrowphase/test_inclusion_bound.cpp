@@ -16,11 +16,11 @@
 #undef private
 
 #include "tests/catch.hpp"
-#include "tests/narrowphase/exact_pair.hpp"
-#include "tests/narrowphase/fuzz.hpp"
+#include "tests/fuzz.hpp"
+#include "tests/narrowphase/exact/exact_pair.hpp"
 #include "tests/narrowphase/query_corners.hpp"
 #include "tests/narrowphase/samples.hpp"
-#include "tests/scenes/random_query.hpp"
+#include "tests/queries/random_query.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "tests/catch.hpp"
+#include "tests/fuzz.hpp"
 #include "tests/narrowphase/check_promises.hpp"
-#include "tests/narrowphase/fuzz.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/narrowphase/separation.hpp"
-#include "tests/scenes/random_query.hpp"
+#include "tests/queries/random_query.hpp"
 
 using namespace onset;
 using namespace onset::tests;

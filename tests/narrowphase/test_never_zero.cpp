@@ -1,9 +1,9 @@
 // From a start that is apart the time is positive, whatever the budget and the tolerance.
 #include "tests/catch.hpp"
-#include "tests/narrowphase/fuzz.hpp"
+#include "tests/fuzz.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/narrowphase/separation.hpp"
-#include "tests/scenes/random_query.hpp"
+#include "tests/queries/random_query.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -1,7 +1,7 @@
 // Edges exchanged, their ends exchanged, the face's vertices in another order: the same pair, so the same
 // answer up to the tolerance. Bits of toi may differ.
 #include "tests/catch.hpp"
-#include "tests/narrowphase/fuzz.hpp"
+#include "tests/fuzz.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/narrowphase/separation.hpp"
 #include "tests/narrowphase/symmetries.hpp"

@@ -1,10 +1,10 @@
 // Resting contact is not contact: a pair that starts apart and never loses three quarters of its gap is free,
 // however the gap compares with the tolerance (narrowphase/kernel/advance.inl, stop rule).
 #include "tests/catch.hpp"
-#include "tests/narrowphase/fuzz.hpp"
+#include "tests/fuzz.hpp"
 #include "tests/narrowphase/samples.hpp"
 #include "tests/narrowphase/separation.hpp"
-#include "tests/scenes/random_query.hpp"
+#include "tests/queries/random_query.hpp"
 
 using namespace onset;
 using namespace onset::tests;

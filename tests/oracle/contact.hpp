@@ -12,8 +12,8 @@
 
 #include <optional>
 
-#include "tests/oracle/geometry.hpp"
-#include "tests/oracle/root.hpp"
+#include "tests/oracle/arithmetic/geometry.hpp"
+#include "tests/oracle/arithmetic/root.hpp"
 
 namespace onset::oracle {
 

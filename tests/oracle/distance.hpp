@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/oracle/geometry.hpp"
+#include "tests/oracle/arithmetic/geometry.hpp"
 
 namespace onset::oracle {
 

@@ -6,7 +6,7 @@
 #include <onset/intersections.hpp>
 #include <optional>
 
-#include "tests/oracle/geometry.hpp"
+#include "tests/oracle/arithmetic/geometry.hpp"
 
 namespace onset::oracle {
 

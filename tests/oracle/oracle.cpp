@@ -2,9 +2,9 @@
 
 #include <limits>
 
+#include "tests/oracle/arithmetic/exact_points.hpp"
 #include "tests/oracle/contact.hpp"
 #include "tests/oracle/distance.hpp"
-#include "tests/oracle/exact_points.hpp"
 
 namespace onset::oracle {
 

@@ -4,8 +4,8 @@
 
 #include <onset/query.hpp>
 
-#include "tests/oracle/root.hpp"
-#include "tests/scenes/query.hpp"
+#include "tests/oracle/arithmetic/root.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::oracle {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/oracle/exact_points.hpp"
+#include "tests/oracle/arithmetic/exact_points.hpp"
 
 namespace onset::oracle {
 namespace {

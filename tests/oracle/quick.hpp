@@ -1,7 +1,7 @@
 // Answers in doubles where these are certain, for tests that ask about millions of pairs.
 #pragma once
 
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::oracle {
 

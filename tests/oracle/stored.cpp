@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "tests/oracle/arithmetic/exact_points.hpp"
 #include "tests/oracle/contact.hpp"
-#include "tests/oracle/exact_points.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/quick.hpp"
 

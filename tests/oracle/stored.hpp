@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::oracle {
 

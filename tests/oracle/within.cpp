@@ -7,9 +7,9 @@
 
 #include <optional>
 
+#include "tests/oracle/arithmetic/exact_points.hpp"
 #include "tests/oracle/contact.hpp"
 #include "tests/oracle/distance.hpp"
-#include "tests/oracle/exact_points.hpp"
 #include "tests/oracle/quick.hpp"
 
 namespace onset::oracle {

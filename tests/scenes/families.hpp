@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 #include "tests/scenes/random.hpp"
 
 namespace onset::scenes {

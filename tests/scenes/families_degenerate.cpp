@@ -1,6 +1,6 @@
 // Primitives and motions for which the coplanarity cubic vanishes, or the primitive has no normal.
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/scenes/random_query.hpp"
 
 namespace onset::scenes {
 

@@ -1,6 +1,6 @@
 // Motions that almost touch: gaps from one unit in the last place to a thousandth of the size.
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/scenes/random_query.hpp"
 
 namespace onset::scenes {
 

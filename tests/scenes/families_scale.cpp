@@ -1,6 +1,6 @@
 // Ordinary geometry at extraordinary scales, offsets and speeds.
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/scenes/random_query.hpp"
 
 namespace onset::scenes {
 

@@ -1,6 +1,6 @@
 // Contacts that exist by construction, in exact arithmetic, and are lost by one wrong rounding.
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/scenes/random_query.hpp"
 
 namespace onset::scenes {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/scenes/query.hpp"
+#include "tests/queries/query.hpp"
 
 namespace onset::scenes {
 

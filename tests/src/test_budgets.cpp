@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "tests/catch.hpp"
-#include "tests/pipeline/scene_set.hpp"
 #include "tests/scenes/meshes.hpp"
+#include "tests/src/support/scene_set.hpp"
 
 using namespace onset;
 using tests::same_bytes;

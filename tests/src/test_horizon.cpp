@@ -4,7 +4,7 @@
 #include <onset/onset.hpp>
 
 #include "tests/catch.hpp"
-#include "tests/src/soups.hpp"
+#include "tests/src/support/soups.hpp"
 
 using namespace onset;
 

@@ -4,9 +4,9 @@
 
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
-#include "tests/pipeline/scene_set.hpp"
-#include "tests/steps/promises.hpp"
-#include "tests/steps/random_scenes.hpp"
+#include "tests/src/support/scene_set.hpp"
+#include "tests/steps/support/promises.hpp"
+#include "tests/steps/support/random_scenes.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -1,6 +1,6 @@
 // What never happens is at infinity; what happens at the end of the step is at 1.
 #include "tests/catch.hpp"
-#include "tests/pipeline/one_pair.hpp"
+#include "tests/src/support/one_pair.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -5,8 +5,8 @@
 
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
-#include "tests/steps/promises.hpp"
-#include "tests/steps/random_scenes.hpp"
+#include "tests/steps/support/promises.hpp"
+#include "tests/steps/support/random_scenes.hpp"
 
 using namespace onset;
 using namespace onset::tests;

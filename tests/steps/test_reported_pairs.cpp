@@ -2,9 +2,9 @@
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
 #include "tests/oracle/walk.hpp"
-#include "tests/pipeline/one_pair.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/steps/promises.hpp"
+#include "tests/src/support/one_pair.hpp"
+#include "tests/steps/support/promises.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -4,9 +4,9 @@
 #include "tests/oracle/promises.hpp"
 #include "tests/oracle/stored.hpp"
 #include "tests/scenes/meshes.hpp"
-#include "tests/steps/calls.hpp"
-#include "tests/steps/mesh_state.hpp"
-#include "tests/steps/promises.hpp"
+#include "tests/steps/support/calls.hpp"
+#include "tests/steps/support/mesh_state.hpp"
+#include "tests/steps/support/promises.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -5,10 +5,10 @@
 #include "tests/oracle/promises.hpp"
 #include "tests/oracle/quick.hpp"
 #include "tests/oracle/stored.hpp"
-#include "tests/pipeline/one_pair.hpp"
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/scenes/random_query.hpp"
-#include "tests/steps/calls.hpp"
+#include "tests/src/support/one_pair.hpp"
+#include "tests/steps/support/calls.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -7,9 +7,9 @@
 #include "tests/oracle/stored.hpp"
 #include "tests/oracle/walk.hpp"
 #include "tests/oracle/within.hpp"
-#include "tests/pipeline/one_pair.hpp"
 #include "tests/scenes/families.hpp"
-#include "tests/steps/ties_and_needles.hpp"
+#include "tests/src/support/one_pair.hpp"
+#include "tests/steps/support/ties_and_needles.hpp"
 
 using namespace onset;
 using namespace onset::tests;

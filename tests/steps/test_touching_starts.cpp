@@ -1,11 +1,11 @@
 // Starts at a gap of exactly 0: whatever the motion, the pair blocks it and is named, by every call.
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
-#include "tests/pipeline/one_pair.hpp"
+#include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
 #include "tests/scenes/meshes.hpp"
-#include "tests/scenes/random_query.hpp"
-#include "tests/steps/promises.hpp"
+#include "tests/src/support/one_pair.hpp"
+#include "tests/steps/support/promises.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -1,9 +1,9 @@
 // A thickness of zero changes nothing: not where all vertices have it, nor for a pair whose own have it.
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
-#include "tests/pipeline/scene_set.hpp"
-#include "tests/steps/promises.hpp"
-#include "tests/steps/random_scenes.hpp"
+#include "tests/src/support/scene_set.hpp"
+#include "tests/steps/support/promises.hpp"
+#include "tests/steps/support/random_scenes.hpp"
 
 using namespace onset;
 using namespace onset::tests;

@@ -1,0 +1,42 @@
+#include <algorithm>
+
+#include "base/radix_sort.hpp"
+#include "tests/catch.hpp"
+#include "tests/queries/random_query.hpp"
+
+using namespace onset;
+
+namespace {
+
+struct Item {
+  std::uint64_t key;
+  int place;
+  bool operator==(const Item& o) const { return key == o.key && place == o.place; }
+};
+
+// Keys that differ in the bits of `mask` only.
+std::vector<Item> items(int count, std::uint64_t mask, scenes::Random& random) {
+  std::vector<Item> r;
+  for (int i = 0; i < count; ++i) {
+    const auto half = [&] { return std::uint64_t(std::uint32_t(scenes::integer(random, 0, 0x7fffffff))); };
+    r.push_back({((half() << 33 ^ half() << 11 ^ half()) & mask) | (~mask & 0x5555555555555555), i});
+  }
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("sorting by digits is stable and orders whole keys", "[unit]") {
+  scenes::Random random(7);
+  for (const std::uint64_t mask :
+       {std::uint64_t(0), std::uint64_t(1), std::uint64_t(1) << 63, ~std::uint64_t(0),
+        std::uint64_t(0x8003ffff0003ffff), std::uint64_t(0x00000000000ff800)})
+    for (const int count : {0, 1, 2, 3, 1000, 5000}) {
+      std::vector<Item> mine = items(count, mask, random), theirs = mine;
+      radix_sort(mine, [](const Item& x) { return x.key; });
+      std::stable_sort(theirs.begin(), theirs.end(),
+                       [](const Item& x, const Item& y) { return x.key < y.key; });
+      CAPTURE(mask, count);
+      CHECK((mine == theirs));
+    }
+}

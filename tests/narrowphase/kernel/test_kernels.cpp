@@ -1,0 +1,192 @@
+// The scalar and the AVX2 copy of the kernel text give the same bytes.
+#include <cstring>
+#include <numeric>
+
+#include "base/dispatch.hpp"
+#include "tests/catch.hpp"
+#include "tests/fuzz.hpp"
+#include "tests/narrowphase/kernel/kernel_batch.hpp"
+#include "tests/narrowphase/samples.hpp"
+#include "tests/queries/random_query.hpp"
+
+#ifdef ONSET_HAVE_AVX2
+
+using namespace onset;
+using namespace onset::tests;
+using scenes::Query;
+using scenes::Random;
+
+namespace {
+
+bool same(double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; }
+
+bool same(const KernelResult& a, const KernelResult& b) {
+  return same(a.t, b.t) && same(a.distance, b.distance) && same(a.delta, b.delta) &&
+         same(a.separation, b.separation) && same(a.unit, b.unit) && a.checks == b.checks &&
+         a.verdict == b.verdict;
+}
+
+std::vector<int> culled(const KernelTable& table, PairKind kind, const KernelPairs& pairs) {
+  std::vector<int> survivors(std::size_t(pairs.count) + 1);
+  survivors.resize(std::size_t(of_kind(table, kind).cull(pairs, survivors.data())));
+  return survivors;
+}
+
+std::vector<KernelResult> advanced(const KernelTable& table, PairKind kind, const KernelPairs& pairs,
+                                   const std::vector<int>& subset, const KernelResume* resume = nullptr) {
+  std::vector<KernelResult> results(subset.size());
+  of_kind(table, kind).advance(pairs, subset.data(), int(subset.size()), resume, results.data());
+  return results;
+}
+
+void expect_same(const std::vector<KernelResult>& a, const std::vector<KernelResult>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!same(a[i], b[i]))
+      FAIL_CHECK("pair " << i << " of " << a.size() << ": t " << a[i].t << " " << b[i].t << " verdict "
+                         << int(a[i].verdict) << " " << int(b[i].verdict) << " checks " << a[i].checks << " "
+                         << b[i].checks);
+}
+
+// Resumes every pair where it stopped, in or beyond the middle of what it still may take.
+std::vector<KernelResume> resumed(const std::vector<KernelResult>& results) {
+  std::vector<KernelResume> resume;
+  for (const KernelResult& r : results) {
+    KernelResume next{};
+    next.t = r.t < 1 ? r.t : 0.5;
+    next.separation = r.separation;
+    next.delta = r.delta;
+    next.checks = 1;
+    next.patience = double(resume.size() % 3) * 20;
+    resume.push_back(next);
+  }
+  return resume;
+}
+
+void compare_frames(const KernelBatch& batch, const KernelPairs& pairs, const std::vector<KernelResult>& at) {
+  std::vector<double> t;
+  for (const KernelResult& r : at) t.push_back(std::min(r.t, 1.0));
+  std::vector<KernelFrame> a(t.size()), b(t.size());
+  of_kind(scalar_kernels(), batch.kind()).frames(pairs, t.data(), a.data());
+  of_kind(avx2_kernels(), batch.kind()).frames(pairs, t.data(), b.data());
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    bool equal = a[i].ordinary == b[i].ordinary;
+    if (a[i].ordinary) {
+      equal = equal && same(a[i].gap, b[i].gap) && same(a[i].speed, b[i].speed);
+      for (int k = 0; k < 4; ++k) equal = equal && same(a[i].weight[k], b[i].weight[k]);
+      for (int k = 0; k < 3; ++k) equal = equal && same(a[i].normal[k], b[i].normal[k]);
+    }
+    if (!equal) FAIL_CHECK("frames differ");
+  }
+}
+
+void compare_copies(const KernelBatch& batch, const KernelPairs& pairs) {
+  const KernelTable &one = scalar_kernels(), &other = avx2_kernels();
+  const std::vector<int> kept = culled(one, batch.kind(), pairs);
+  if (kept != culled(other, batch.kind(), pairs)) FAIL_CHECK("the culls differ");
+  std::vector<int> all(std::size_t(pairs.count));
+  std::iota(all.begin(), all.end(), 0);
+  const auto a = advanced(one, batch.kind(), pairs, all);
+  expect_same(a, advanced(other, batch.kind(), pairs, all));
+  const auto resume = resumed(a);
+  expect_same(advanced(one, batch.kind(), pairs, all, resume.data()),
+              advanced(other, batch.kind(), pairs, all, resume.data()));
+  compare_frames(batch, pairs, a);
+  for (int row = 0; row < pairs.count; ++row) {
+    double v[3], w[3];
+    of_kind(one, batch.kind()).look(pairs, row, a[std::size_t(row)].t, v);
+    of_kind(other, batch.kind()).look(pairs, row, a[std::size_t(row)].t, w);
+    for (int i = 0; i < 3; ++i)
+      if (!same(v[i], w[i])) FAIL_CHECK("directions differ");
+  }
+}
+
+// Batches that mix all sources, as a scene does.
+KernelBatch mixed_batch(PairKind kind, int count, Random& random) {
+  static const std::vector<Source> sources = all_sources();
+  KernelBatch batch(kind);
+  for (int i = 0; i < count; ++i) {
+    const Query query =
+        sources[std::size_t(scenes::integer(random, 0, int(sources.size()) - 1))].make(kind, random);
+    const double size = extent(query);
+    const bool separated = scenes::coin(random) && size < 0x1p900;
+    batch.add(query, separated ? size * scenes::power_of_ten(random, -8, 0.5) : 0);
+  }
+  return batch;
+}
+
+}  // namespace
+
+TEST_CASE("scalar and AVX2 kernels give the same bytes for any pair", "[simd][property]") {
+  if (!has_avx2()) return;
+  for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
+    Random random(61);
+    for (int i = 0; i < fuzz(600); ++i) {
+      KernelBatch batch = mixed_batch(kind, 200, random);
+      if (scenes::coin(random)) batch.round();
+      KernelPairs pairs = batch.pairs(scenes::power_of_ten(random, -12, 0), scenes::coin(random),
+                                      scenes::integer(random, 0, 2) ? 500 : 3);
+      if (scenes::coin(random)) pairs.horizon = pairs.cull_horizon = scenes::unit(random);
+      if (scenes::coin(random))
+        pairs.keep = scenes::unit(random), pairs.storing = scenes::power_of_ten(random, -16, -2),
+        pairs.cull_beyond = kStoredRoundings * pairs.storing;
+      compare_copies(batch, pairs);
+    }
+  }
+}
+
+TEST_CASE("batches of 1 to 17 pairs give the same bytes, and the same as one by one", "[simd]") {
+  if (!has_avx2()) return;
+  for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
+    Random random(62);
+    for (int count = 1; count <= 17; ++count)
+      for (int i = 0; i < fuzz(10); ++i) {
+        const KernelBatch batch = mixed_batch(kind, count, random);
+        const KernelPairs pairs = batch.pairs(1e-6);
+        compare_copies(batch, pairs);
+        std::vector<int> all(std::size_t(count), 0);
+        std::iota(all.begin(), all.end(), 0);
+        const auto together = advanced(avx2_kernels(), kind, pairs, all);
+        const auto kept = culled(avx2_kernels(), kind, pairs);
+        for (int row = 0; row < count; ++row) {
+          expect_same({together[std::size_t(row)]}, advanced(scalar_kernels(), kind, pairs, {row}));
+          KernelPairs alone = pairs;
+          alone.vertices += row, alone.separation += row, alone.count = 1;
+          const bool survives = std::count(kept.begin(), kept.end(), row) > 0;
+          CHECK(survives == !culled(scalar_kernels(), kind, alone).empty());
+        }
+      }
+  }
+}
+
+// Nothing of a non-finite pair may leak into its neighbours in the lanes.
+TEST_CASE("a pair with NaN or infinity leaves the others of its batch alone", "[simd]") {
+  if (!has_avx2()) return;
+  Random random(63);
+  const double bad[] = {NAN, INFINITY, -INFINITY, 0x1p1023};
+  for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
+    for (int i = 0; i < fuzz(40); ++i) {
+      std::vector<Query> queries;
+      for (int k = 0; k < 9; ++k) queries.push_back(scenes::mixed_query(kind, random));
+      const int spoiled = scenes::integer(random, 0, 8);
+      KernelBatch clean(kind), dirty(kind);
+      for (int k = 0; k < 9; ++k) {
+        clean.add(queries[std::size_t(k)], 0);
+        Query q = queries[std::size_t(k)];
+        if (k == spoiled)
+          q.t1[std::size_t(scenes::integer(random, 0, 3))][1] = bad[scenes::integer(random, 0, 3)];
+        dirty.add(q, 0);
+      }
+      std::vector<int> all(9);
+      std::iota(all.begin(), all.end(), 0);
+      for (const KernelTable* table : {&scalar_kernels(), &avx2_kernels()}) {
+        const auto a = advanced(*table, kind, clean.pairs(1e-6), all),
+                   b = advanced(*table, kind, dirty.pairs(1e-6), all);
+        for (int k = 0; k < 9; ++k)
+          if (k != spoiled) expect_same({a[std::size_t(k)]}, {b[std::size_t(k)]});
+      }
+    }
+}
+
+#else
+TEST_CASE("this build has one copy of the kernels", "[simd]") { SUCCEED(); }
+#endif

@@ -1,0 +1,138 @@
+// What a caller gets wrong is an std::invalid_argument that says what and by how much.
+#include <functional>
+#include <stdexcept>
+
+#include "tests/catch.hpp"
+#include "tests/src/support/scene_set.hpp"
+
+using namespace onset;
+using namespace onset::tests;
+
+namespace {
+
+// The message, or what happened instead.
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  } catch (...) {
+    return "another exception";
+  }
+  return "no exception";
+}
+
+bool names(const std::string& message, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    if (message.find(word) == std::string::npos) return false;
+  return message != "no exception" && message != "another exception";
+}
+
+struct Calls {
+  scenes::Scene scene = scenes::cube();
+  Mesh mesh{scene.x_t0, scene.faces};
+
+  std::vector<std::function<void()>> with(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                                          const Options& o = {}) const {
+    return {[=, m = mesh] { compute_collision_free_stepsize(m, a, b, o); },
+            [=, m = mesh] { construct_active_set(m, a, b, o); },
+            [=, m = mesh] { is_step_collision_free(m, a, b, o); },
+            [=, m = mesh] { compute_candidates(m, a, b, o); }};
+  }
+};
+
+void expect(const std::vector<std::function<void()>>& calls, std::initializer_list<const char*> words) {
+  for (const auto& call : calls) {
+    const std::string message = message_of(call);
+    INFO(message);
+    CHECK(names(message, words));
+  }
+}
+
+void expect_rejected(const Options& o, std::initializer_list<const char*> words) {
+  const Calls c;
+  auto calls = c.with(c.scene.x_t0, c.scene.x_t1, o);
+  calls.push_back([=] { vertex_face_ccd(VertexFaceQuery{}, o); });
+  calls.push_back([=] { edge_edge_ccd(EdgeEdgeQuery{}, o); });
+  expect(calls, words);
+}
+
+}  // namespace
+
+TEST_CASE("wrong numbers of rows and columns are named", "[unit]") {
+  const Calls c;
+  const Eigen::MatrixXd good = c.scene.x_t0;
+  expect(c.with(Eigen::MatrixXd::Zero(7, 3), good), {"x_t0", "7", "8"});
+  expect(c.with(good, Eigen::MatrixXd::Zero(9, 3)), {"x_t1", "9", "8"});
+  expect(c.with(Eigen::MatrixXd::Zero(8, 2), good), {"x_t0", "2"});
+  expect(c.with(Eigen::MatrixXd::Zero(3, 8), good), {"x_t0", "3"});
+  expect(c.with(good, Eigen::MatrixXd::Zero(0, 3)), {"x_t1", "0", "8"});
+  expect(c.with(good, Eigen::VectorXd::Zero(25)), {"x_t1"});
+  expect(c.with(good, Eigen::VectorXd::Zero(27)), {"x_t1", "9", "8"});
+}
+
+TEST_CASE("options out of range are named with their value", "[unit]") {
+  for (double bad : {0.0, -1.0, double(NAN), double(INFINITY)}) {
+    Options o;
+    o.tolerance = bad;
+    expect_rejected(o, {"tolerance", bad > 0 ? "inf" : bad == 0 ? "0" : bad < 0 ? "-1" : "nan"});
+    Options r;
+    r.relative_tolerance = bad;
+    expect_rejected(r, {"relative_tolerance"});
+  }
+  for (double bad : {-1e-300, -1.0, double(NAN), double(INFINITY), -double(INFINITY)}) {
+    Options o;
+    o.min_separation = bad;
+    expect_rejected(o, {"min_separation"});
+  }
+  for (std::int64_t bad : {std::int64_t(0), std::int64_t(-5)}) {
+    Options o;
+    o.max_checks = bad;
+    expect_rejected(o, {"max_checks", bad == 0 ? "0" : "-5"});
+  }
+  Options o;
+  o.threads = -2;
+  expect_rejected(o, {"threads", "-2"});
+}
+
+TEST_CASE("the ends of the options' ranges are accepted", "[unit]") {
+  const Calls c;
+  Options o;
+  o.tolerance = 0x1p-1074;
+  o.max_checks = 1;
+  o.min_separation = 0;
+  for (const auto& call : c.with(c.scene.x_t0, c.scene.x_t1, o)) CHECK_NOTHROW(call());
+  o.tolerance = 0x1p1000;
+  o.min_separation = 0x1p1000;
+  o.max_checks = std::numeric_limits<std::int64_t>::max();
+  o.relative_tolerance = 1e300;
+  o.threads = 1;
+  for (const auto& call : c.with(c.scene.x_t0, c.scene.x_t1, o)) CHECK_NOTHROW(call());
+}
+
+TEST_CASE("bad topology is named by its row", "[unit]") {
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Zero(4, 3);
+  Eigen::MatrixXi F(2, 3), E(2, 2);
+  F << 0, 1, 2, 1, 2, 4;
+  CHECK(names(message_of([&] { Mesh(x, F); }), {"face", "row 1", "4"}));
+  F << 0, 1, 2, 1, -1, 2;
+  CHECK(names(message_of([&] { Mesh(x, F); }), {"face", "row 1", "-1"}));
+  F << 0, 1, 1, 1, 2, 3;
+  CHECK(names(message_of([&] { Mesh(x, F); }), {"face", "row 0", "repeated"}));
+  F << 0, 1, 2, 1, 2, 3;
+  E << 0, 1, 2, 2;
+  CHECK(names(message_of([&] { Mesh(x, E, F); }), {"edge", "row 1", "repeated"}));
+  E << 0, 1, 2, 3;
+  CHECK(names(message_of([&] { Mesh(x, E, Eigen::MatrixXi::Zero(2, 4)); }), {"face", "4"}));
+  CHECK(names(message_of([&] { Mesh(x, F, F); }), {"edge", "3"}));
+}
+
+TEST_CASE("bad thickness is named by its row", "[unit]") {
+  Calls c;
+  CHECK(names(message_of([&] { c.mesh.set_thickness({1, 2}); }), {"thickness", "2", "8"}));
+  std::vector<double> t(8, 0.1);
+  for (double bad : {-0.5, double(NAN), double(INFINITY)}) {
+    t[5] = bad;
+    CHECK(names(message_of([&] { c.mesh.set_thickness(t); }), {"thickness", "5"}));
+  }
+}
