@@ -44,12 +44,12 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     set.outcome = scene.motion.status;
     set.vertex = scene.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
-    PassResult pass = scene.broad ? find_contacts(mesh, scene, options, Keep::all, budget, set.stats) : PassResult{};
+    TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, Keep::all, budget, set.stats) : TraversalResult{};
     const double begun = scene.clock.seconds();
-    note_worst(mesh, pass, set.stats);
-    cut_off(pass.found, options, budget, set);
+    note_worst(mesh, traversal, set.stats);
+    cut_off(traversal.found, options, budget, set);
     if (budget.outcome() != Outcome::free) set.stats.looked_at = budget.done();
-    fill_rows(mesh, scene.motion, options.kernel, pass.found, set);
+    fill_rows(mesh, scene.motion, options.kernel, traversal.found, set);
     if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
     set.stats.seconds_total = scene.clock.seconds();
     set.stats.seconds_contacts = set.stats.seconds_total - begun;

@@ -66,7 +66,7 @@ Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Pos
     if (c.outcome != Outcome::free) return;
     std::atomic<std::int64_t> room{options.memory_limit / std::int64_t(sizeof(IdPair))};
     if (scene.broad) {
-      budget.begin_pass(scene.broad->blocks(PairKind::vertex_face) +
+      budget.begin_traversal(scene.broad->blocks(PairKind::vertex_face) +
                         scene.broad->blocks(PairKind::edge_edge));
       const Motion* welds = mesh.data().weld ? &scene.motion : nullptr;
       list_candidates(mesh, *scene.broad, PairKind::vertex_face, list, welds, room, budget, c.vertex_face,

@@ -1,4 +1,4 @@
-// From the pairs that a pass found to the rows of an active set.
+// From the pairs that a traversal found to the rows of an active set.
 #pragma once
 
 #include <vector>

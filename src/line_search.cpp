@@ -122,12 +122,12 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   in_arena(h.options.threads, [&] {
     const Clock clock;
     Budget budget(h.options);
-    const PassResult pass = run_pass(h.source(h.pairs), NarrowPhase(h.input()), Keep::limiting, upper, budget);
-    copy_counts(pass, r.result.stats);
-    limit_step(h.mesh, pass, budget, upper, upper, r.result);
+    const TraversalResult traversal = traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Keep::limiting, upper, budget);
+    copy_counts(traversal, r.result.stats);
+    limit_step(h.mesh, traversal, budget, upper, upper, r.result);
     r.result.stats.seconds_narrow = r.result.stats.seconds_total = clock.seconds();
     for (const auto& [kind, stats] :
-         {std::pair{PairKind::vertex_face, pass.vertex_face}, {PairKind::edge_edge, pass.edge_edge}}) {
+         {std::pair{PairKind::vertex_face, traversal.vertex_face}, {PairKind::edge_edge, traversal.edge_edge}}) {
       if (stats.least_kept >= r.keep) continue;
       r.keep = std::max(stats.least_kept, 0.0);
       r.keep_reduced = true;

@@ -21,8 +21,8 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
   r.outcome = scene.motion.status;
   r.vertex = scene.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
-  const PassResult pass = scene.broad ? find_contacts(mesh, scene, options, keep, budget, r.stats) : PassResult{};
-  limit_step(mesh, pass, budget, 1, 1, r);
+  const TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, keep, budget, r.stats) : TraversalResult{};
+  limit_step(mesh, traversal, budget, 1, 1, r);
   r.rounding = reported_rounding(scene.rounding);
   r.stats.seconds_total = scene.clock.seconds();
   return r;

@@ -22,7 +22,7 @@ bool Budget::counts_checks() const { return options_.check_limit < std::numeric_
 
 bool Budget::is_watched() const { return std::isfinite(options_.time_limit) || options_.progress; }
 
-void Budget::begin_pass(std::size_t blocks) {
+void Budget::begin_traversal(std::size_t blocks) {
   blocks_ = blocks;
   blocks_done_ = 0;
 }

@@ -18,8 +18,8 @@ class Budget {
 
   // Whether the call must end; looks at the clock.
   bool spent();
-  // A new pass over so many blocks of pairs, and how many more of them are done: for the caller's progress.
-  void begin_pass(std::size_t blocks);
+  // A new traversal of so many blocks of pairs, and how many more of them are done: for the caller's progress.
+  void begin_traversal(std::size_t blocks);
   void advance(std::size_t blocks);
   void add_checks(std::int64_t checks) { checks_ += checks; }
   // Between waves of work only, so that the answer does not depend on the order of work.
@@ -30,7 +30,7 @@ class Budget {
   bool is_watched() const;
   // Why the call must end; free while it need not.
   Outcome outcome() const { return outcome_.load(std::memory_order_relaxed); }
-  // The share of the last pass that is done, in [0, 1].
+  // The share of the last traversal that is done, in [0, 1].
   double done() const;
 
  private:

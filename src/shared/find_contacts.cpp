@@ -27,7 +27,7 @@ constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cos
 double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
                          Budget& budget, Limits& sampled) {
   if (!narrow.uses_horizon()) return 1;
-  sampled = run_pass(*scene.broad, narrow, Keep::limiting, 1, budget, sampled_stride(*scene.broad)).limits;
+  sampled = traverse_pairs(*scene.broad, narrow, Keep::limiting, 1, budget, sampled_stride(*scene.broad)).limits;
   if (!sampled.contact) return 1;
   sampled.stored = sampled.clear = {};  // the whole finds them
   const PairResult& first = sampled.contact->result;
@@ -56,7 +56,7 @@ void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) 
 }
 
 // One contact more than fits, where there is a limit: it tells until when the set is complete.
-PassBounds bounds(const Options& options) {
+TraversalBounds bounds(const Options& options) {
   const bool limited = options.memory_limit < std::numeric_limits<std::int64_t>::max();
   return {options.window, limited ? most_contacts(options) + 1 : std::numeric_limits<std::size_t>::max()};
 }
@@ -76,9 +76,9 @@ std::size_t most_contacts(const Options& options) {
   return std::size_t(options.memory_limit / kBytesAContact);
 }
 
-PassResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget, Stats& stats) {
+TraversalResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget, Stats& stats) {
   const double begun = scene.clock.seconds();
-  const PassBounds limited = keep == Keep::all ? bounds(options) : PassBounds{};
+  const TraversalBounds limited = keep == Keep::all ? bounds(options) : TraversalBounds{};
   NarrowPhaseInput input{mesh.data(), scene.motion, stats.tolerance, stats.extent, options};
   // All times in one order are exact, or none is.
   input.exact_times = options.certainty == CertaintyLevel::exact &&
@@ -95,15 +95,15 @@ PassResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options,
   const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
   Limits sampled;
   const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, sampled) : 1;
-  PassBounds limits = limited;
+  TraversalBounds limits = limited;
   if (horizon <= kShrinksUpTo) limits.whole = &*scene.tree;
-  PassResult pass = run_pass(*scene.broad, narrow, keep, horizon, budget, 1, limits);
-  if (keep == Keep::limiting) pass.limits.add(sampled);
-  if (keep == Keep::all) sharpen_earliest(narrow, pass.found);
-  copy_counts(pass, stats);
+  TraversalResult traversal = traverse_pairs(*scene.broad, narrow, keep, horizon, budget, 1, limits);
+  if (keep == Keep::limiting) traversal.limits.add(sampled);
+  if (keep == Keep::all) sharpen_earliest(narrow, traversal.found);
+  copy_counts(traversal, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;
   stats.seconds_total = scene.clock.seconds();
-  return pass;
+  return traversal;
 }
 
 }  // namespace onset

@@ -46,7 +46,7 @@ Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kin
   std::atomic<bool> too_many{false};
   std::size_t blocks = 0;
   for (const PairKind kind : kinds) blocks += pairs.blocks(kind);
-  budget.begin_pass(blocks);
+  budget.begin_traversal(blocks);
   for (const PairKind kind : kinds)
     parallel_ranges(pairs.blocks(kind), kBlocksATask, [&](std::size_t first, std::size_t last) {
       if (too_many || budget.spent()) return;

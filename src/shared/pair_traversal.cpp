@@ -56,10 +56,10 @@ constexpr std::size_t kWatchedPairs = 16;
 // Of the earliest contacts only: results a task holds before it hands them over.
 constexpr std::size_t kHeldByATask = 1024;
 
-class Pass {
+class PairTraversal {
  public:
-  Pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon, Budget& budget,
-       std::size_t stride, const PassBounds& bounds)
+  PairTraversal(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon, Budget& budget,
+       std::size_t stride, const TraversalBounds& bounds)
       : pairs_(pairs),
         narrow_(narrow),
         keep_(keep),
@@ -69,7 +69,7 @@ class Pass {
         first_horizon_(horizon),
         horizon_(horizon),
         wave_horizon_(horizon) {
-    budget.begin_pass(count(PairKind::vertex_face) + count(PairKind::edge_edge));
+    budget.begin_traversal(count(PairKind::vertex_face) + count(PairKind::edge_edge));
   }
 
   void run(PairKind kind, NarrowPhaseStats& stats) {
@@ -92,31 +92,31 @@ class Pass {
 
  private:
   struct Task {
-    Pass& pass;
+    PairTraversal& traversal;
     PairKind kind;
-    NarrowPhaseStats& stats;  // of the pass
+    NarrowPhaseStats& stats;  // of the traversal
     NarrowPhaseScratch scratch;
     std::vector<PairResult> results;  // where all are kept
     Limits limits;
 
     static void consume(void* context, const IdPair* pairs, std::size_t count) {
       auto& task = *static_cast<Task*>(context);
-      const std::size_t step = task.pass.budget_.is_watched() ? kWatchedPairs : count;
-      for (std::size_t i = 0; i < count && !task.pass.ended(); i += step)
+      const std::size_t step = task.traversal.budget_.is_watched() ? kWatchedPairs : count;
+      for (std::size_t i = 0; i < count && !task.traversal.ended(); i += step)
         task.process(pairs + i, std::min(step, count - i));
     }
     void process(const IdPair* pairs, std::size_t count) {
       const std::size_t known = results.size();
-      pass.narrow_.process(kind, pairs, count, {pass.first_horizon_, pass.horizon()}, scratch, results);
-      if (pass.bounds_.whole != nullptr) keep_candidates_of(*pass.bounds_.whole, known);
+      traversal.narrow_.process(kind, pairs, count, {traversal.first_horizon_, traversal.horizon()}, scratch, results);
+      if (traversal.bounds_.whole != nullptr) keep_candidates_of(*traversal.bounds_.whole, known);
       if (results.size() == known) return;
       scratch.stats.contacts += std::int64_t(results.size() - known);
       for (std::size_t i = known; i < results.size(); ++i) scratch.stats.note_outcome(results[i]);
-      if (pass.keep_ == Keep::all)
-        pass.shrink_to_window(results, known);
+      if (traversal.keep_ == Keep::all)
+        traversal.shrink_to_window(results, known);
       else
-        pass.take_limits(*this);
-      if (pass.is_bounded() && results.size() >= kHeldByATask) pass.merge(*this);
+        traversal.take_limits(*this);
+      if (traversal.is_bounded() && results.size() >= kHeldByATask) traversal.merge(*this);
     }
     void keep_candidates_of(const BroadPhaseInput& whole, std::size_t first) {
       const auto is_other = [&](const PairResult& r) { return !boxes_pass(whole, kind, r.pair); };
@@ -205,7 +205,7 @@ class Pass {
   const Keep keep_;
   Budget& budget_;
   const std::size_t stride_;
-  const PassBounds bounds_;
+  const TraversalBounds bounds_;
   const double first_horizon_;
   std::atomic<double> horizon_;
   std::atomic<bool> found_any_{false};
@@ -257,16 +257,16 @@ bool earlier(const FoundPair& x, const FoundPair& y) {
   return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);
 }
 
-PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
-                    Budget& budget, std::size_t stride, const PassBounds& bounds) {
-  PassResult result;
-  Pass pass(pairs, narrow, keep, horizon, budget, stride, bounds);
-  pass.run(PairKind::vertex_face, result.vertex_face);
-  pass.run(PairKind::edge_edge, result.edge_edge);
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
+                    Budget& budget, std::size_t stride, const TraversalBounds& bounds) {
+  TraversalResult result;
+  PairTraversal traversal(pairs, narrow, keep, horizon, budget, stride, bounds);
+  traversal.run(PairKind::vertex_face, result.vertex_face);
+  traversal.run(PairKind::edge_edge, result.edge_edge);
   if (keep == Keep::all)
-    result.found = pass.take();
+    result.found = traversal.take();
   else
-    result.limits = pass.limits();
+    result.limits = traversal.limits();
   return result;
 }
 
@@ -280,9 +280,9 @@ NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, c
   return r;
 }
 
-void copy_counts(const PassResult& pass, Stats& stats) {
+void copy_counts(const TraversalResult& traversal, Stats& stats) {
   const auto both = [&](std::int64_t NarrowPhaseStats::*field) {
-    return PairCounts{pass.vertex_face.*field, pass.edge_edge.*field};
+    return PairCounts{traversal.vertex_face.*field, traversal.edge_edge.*field};
   };
   stats.candidates = both(&NarrowPhaseStats::candidates);
   stats.after_culls = both(&NarrowPhaseStats::after_culls);
@@ -290,33 +290,33 @@ void copy_counts(const PassResult& pass, Stats& stats) {
   stats.contacts = both(&NarrowPhaseStats::contacts);
   stats.budget = both(&NarrowPhaseStats::budget);
   stats.checks = both(&NarrowPhaseStats::checks).total();
-  stats.max_checks_of_a_pair = std::max(pass.vertex_face.most_checks, pass.edge_edge.most_checks);
+  stats.max_checks_of_a_pair = std::max(traversal.vertex_face.most_checks, traversal.edge_edge.most_checks);
   for (std::size_t k = 0; k < stats.checks_histogram.size(); ++k)
-    stats.checks_histogram[k] = pass.vertex_face.histogram[k] + pass.edge_edge.histogram[k];
-  stats.achieved_tolerance = std::max(pass.vertex_face.achieved_tolerance, pass.edge_edge.achieved_tolerance);
+    stats.checks_histogram[k] = traversal.vertex_face.histogram[k] + traversal.edge_edge.histogram[k];
+  stats.achieved_tolerance = std::max(traversal.vertex_face.achieved_tolerance, traversal.edge_edge.achieved_tolerance);
 }
 
 Pair to_pair(const Mesh& mesh, const FoundPair& f) {
   return {f.kind, f.result.pair.a, f.result.pair.b, pair_vertices(mesh.data(), f.kind, f.result.pair)};
 }
 
-void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats) {
-  const bool edges = pass.edge_edge.most_checks > pass.vertex_face.most_checks;
-  const IdPair pair = edges ? pass.edge_edge.worst : pass.vertex_face.worst;
+void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats) {
+  const bool edges = traversal.edge_edge.most_checks > traversal.vertex_face.most_checks;
+  const IdPair pair = edges ? traversal.edge_edge.worst : traversal.vertex_face.worst;
   const PairKind kind = edges ? PairKind::edge_edge : PairKind::vertex_face;
   if (pair.a >= 0) stats.worst = {kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
 }
 
-void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, double horizon,
+void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double horizon,
                 StepResult& r) {
-  note_worst(mesh, pass, r.stats);
+  note_worst(mesh, traversal, r.stats);
   if (budget.outcome() != Outcome::free) {
     r.step = 0;
     r.outcome = budget.outcome();
     r.stats.looked_at = budget.done();
     return;
   }
-  const Limits& limits = pass.limits;
+  const Limits& limits = traversal.limits;
   r.step = upper;
   r.toi = INFINITY;
   if (limits.contact && limits.contact->result.step_limit <= horizon) {

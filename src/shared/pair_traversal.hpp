@@ -1,4 +1,4 @@
-// One pass of the pipeline: the broad phase streams batches into the narrow phase, and the results into a
+// One traversal of candidate pairs: the broad phase streams batches into the narrow phase, and the results into a
 // collector.
 #pragma once
 
@@ -34,19 +34,19 @@ struct Limits {
   void add(const Limits& other);
 };
 
-// What a pass keeps. all: every pair that is not free. limiting: the limits only, and pairs certified beyond the first contact
-// so far are dropped on the way. any: as limiting, and the pass ends at the first contact.
+// What a traversal keeps. all: every pair that is not free. limiting: the limits only, and pairs certified beyond the first contact
+// so far are dropped on the way. any: as limiting, and the traversal ends at the first contact.
 enum class Keep { all, limiting, any };
 
-struct PassResult {
+struct TraversalResult {
   std::vector<FoundPair> found;  // all: sorted by `before`
   Limits limits;                 // limiting, any
   NarrowPhaseStats vertex_face, edge_edge;
 };
 
-// What else bounds a pass. `window` and `most` are for passes that keep all: pairs later than the earliest toi +
+// What else bounds a traversal. `window` and `most` are for those that keep all: pairs later than the earliest toi +
 // `window`, and than the earliest `most`, may be dropped on the way (the caller cuts off the rest).
-struct PassBounds {
+struct TraversalBounds {
   double window = std::numeric_limits<double>::infinity();
   std::size_t most = std::numeric_limits<std::size_t>::max();
   // Only pairs that are candidates of this as well are found: what is within the tolerance and yet apart may be a
@@ -57,8 +57,8 @@ struct PassBounds {
 // `horizon`: pairs certified apart beyond it may be dropped. The culls keep to it, advancement to what it shrinks to: a pair that
 // spends its checks far from contact is then reported, or not, for any number of threads. `stride`: only every stride-th block of pairs is
 // looked at. Ends early where the budget is spent: what is found is then true, but not all.
-PassResult run_pass(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
-                    Budget& budget, std::size_t stride = 1, const PassBounds& bounds = {});
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
+                    Budget& budget, std::size_t stride = 1, const TraversalBounds& bounds = {});
 
 // For steps that are stored, of pairs that each keep the share `keep` of their gap. rounding: rounding_of_distances(motion).
 NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Stats& stats,
@@ -70,12 +70,12 @@ inline double latest_time(const PairResult& r) { return r.certainty == Certainty
 // Ordered by (toi, kind, a, b).
 bool earlier(const FoundPair& x, const FoundPair& y);
 
-void copy_counts(const PassResult& pass, Stats& stats);
+void copy_counts(const TraversalResult& traversal, Stats& stats);
 Pair to_pair(const Mesh& mesh, const FoundPair& found);
-void note_worst(const Mesh& mesh, const PassResult& pass, Stats& stats);
-// The step in [0, upper], outcome and limiting pair that follow from a pass up to `horizon` that kept the limits: none with a spent
+void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats);
+// The step in [0, upper], outcome and limiting pair that follow from a traversal up to `horizon` that kept the limits: none with a spent
 // budget.
-void limit_step(const Mesh& mesh, const PassResult& pass, const Budget& budget, double upper, double horizon,
+void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double horizon,
                 StepResult& result);
 
 }  // namespace onset

@@ -23,9 +23,9 @@ StepResult step_of(const Mesh& mesh, const Motion& motion, const HeldPairs& pair
                     r.stats);
   const double rounding = rounding_of_distances(motion);
   const NarrowPhase narrow(stored_step_input(data, motion, r.stats, options, keep, rounding));
-  const PassResult pass = run_pass(pairs, narrow, Keep::limiting, 1, budget);
-  copy_counts(pass, r.stats);
-  limit_step(mesh, pass, budget, upper, 1, r);
+  const TraversalResult traversal = traverse_pairs(pairs, narrow, Keep::limiting, 1, budget);
+  copy_counts(traversal, r.stats);
+  limit_step(mesh, traversal, budget, upper, 1, r);
   r.rounding = reported_rounding(rounding);
   r.stats.seconds_narrow = clock.seconds();
   return r;
