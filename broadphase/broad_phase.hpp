@@ -20,7 +20,7 @@ struct BroadPhaseInput {
   double inflation =
       0;  // every primitive is widened by this, plus the largest thickness of its vertices, rounded outward
   double horizon = 1;  // only the motion on [0, horizon] matters; horizon 1 means the exact end positions
-  BoxTest test = BoxTest::motion;
+  BoxTest test = BoxTest::both_ends;
   Kernel kernel = Kernel::automatic;
   // For primitives all of whose vertices are static, in place of `inflation`; < 0: the same. Their boxes are
   // kept with the mesh from call to call as long as this stays what it was.

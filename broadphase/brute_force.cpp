@@ -36,7 +36,7 @@ class BruteForce final : public BroadPhase {
     PairBatch batch(sink);
     for (std::size_t i = first * kRows; i < std::min(last * kRows, A.ids.size()); ++i)
       for (std::size_t j = kind == PairKind::edge_edge ? i + 1 : 0; j < B.ids.size(); ++j)
-        if (boxes_pass(test_, A.boxes[i], B.boxes[j]) && may_meet(mesh_, kind, A.ids[i], B.ids[j]))
+        if (boxes_overlap(test_, A.boxes[i], B.boxes[j]) && may_meet(mesh_, kind, A.ids[i], B.ids[j]))
           batch.add(A.ids[i], B.ids[j]);
     batch.flush();
   }
@@ -45,7 +45,7 @@ class BruteForce final : public BroadPhase {
   const MotionBoxes& boxes(Primitive kind) const { return boxes_[std::size_t(kind)]; }
 
   const MeshData& mesh_;
-  BoxTest test_ = BoxTest::motion;
+  BoxTest test_ = BoxTest::both_ends;
   bool finite_ = true;
   std::array<MotionBoxes, 3> boxes_;
 };

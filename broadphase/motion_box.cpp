@@ -19,7 +19,7 @@ bool swept_overlap(const MotionBox& a, const MotionBox& b) {
   return true;
 }
 
-bool motion_overlap(const MotionBox& a, const MotionBox& b) {
+bool both_ends_overlap(const MotionBox& a, const MotionBox& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (a.hi_t0[i] < b.lo_t0[i] && a.hi_t1[i] < b.lo_t1[i]) return false;
     if (b.hi_t0[i] < a.lo_t0[i] && b.hi_t1[i] < a.lo_t1[i]) return false;
@@ -30,7 +30,7 @@ bool motion_overlap(const MotionBox& a, const MotionBox& b) {
 // Whether the boxes, each moving linearly from its place at the start to that at the end, are apart at every
 // time, on one axis or another. The reach hi - lo of each direction is positive from its root on, or up to
 // it; computed roots err by 4u of themselves, or 2^-1075.
-bool pass_apart(const MotionBox& a, const MotionBox& b) {
+bool moving_boxes_apart(const MotionBox& a, const MotionBox& b) {
   constexpr double kSlack = 0x1p-45, kLeast = 0x1p-1000;
   double begin = 0, end = 1;
   const auto limit = [&](double s0, double s1) {
@@ -104,13 +104,13 @@ MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind) {
   return result;
 }
 
-bool boxes_pass(BoxTest test, const MotionBox& a, const MotionBox& b) {
+bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b) {
   if (test == BoxTest::swept) return swept_overlap(a, b);
-  return motion_overlap(a, b) && !(test == BoxTest::passing && pass_apart(a, b));
+  return both_ends_overlap(a, b) && !(test == BoxTest::moving && moving_boxes_apart(a, b));
 }
 
-bool boxes_pass(const BroadPhaseInput& input, PairKind kind, IdPair pair) {
-  return boxes_pass(input.test, motion_box(input, first_primitive(kind), pair.a),
+bool boxes_overlap(const BroadPhaseInput& input, PairKind kind, IdPair pair) {
+  return boxes_overlap(input.test, motion_box(input, first_primitive(kind), pair.a),
                     motion_box(input, second_primitive(kind), pair.b));
 }
 

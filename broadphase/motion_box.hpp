@@ -34,8 +34,8 @@ MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind);
 
 // The definition of all tests, which every method reduces to. Swept: closed swept boxes overlap. Motion: no
 // axis separates strictly, on the same side, at both ends. Passing: nor do the axes take turns.
-bool boxes_pass(BoxTest test, const MotionBox& a, const MotionBox& b);
+bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b);
 // Of two primitives, by input.test.
-bool boxes_pass(const BroadPhaseInput& input, PairKind kind, IdPair pair);
+bool boxes_overlap(const BroadPhaseInput& input, PairKind kind, IdPair pair);
 
 }  // namespace onset

@@ -143,7 +143,7 @@ class SpatialHash final : public BroadPhase {
     PairBatch batch(sink);
     cells_[std::size_t(kind)]->visit(first, last, [&](int i, int j) {
       const int a = A.ids[std::size_t(i)], b = B.ids[std::size_t(j)];
-      if (boxes_pass(test_, A.exact[std::size_t(i)], B.exact[std::size_t(j)]) && may_meet(mesh_, kind, a, b))
+      if (boxes_overlap(test_, A.exact[std::size_t(i)], B.exact[std::size_t(j)]) && may_meet(mesh_, kind, a, b))
         batch.add(a, b);
     });
     batch.flush();
@@ -153,7 +153,7 @@ class SpatialHash final : public BroadPhase {
   const Boxes& boxes(Primitive kind) const { return boxes_[std::size_t(kind)]; }
 
   const MeshData& mesh_;
-  BoxTest test_ = BoxTest::motion;
+  BoxTest test_ = BoxTest::both_ends;
   bool finite_ = false;
   std::array<Boxes, 3> boxes_;
   std::array<std::optional<Cells>, 3> cells_;

@@ -12,28 +12,28 @@ constexpr int opposite(int row) { return (row + 3) % 6; }
 
 // Supports of one box, `stride` floats apart, against a block of eight: per lane the overlap in one of six directions, the
 // larger of its values at the two ends. (Inlined even into large loops: with a call, eight floats would go through memory.)
-template <bool kMotion>
+template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block, int k) {
   const F8 reach = broadcast(box + opposite(k) * stride) + load(block + k * kLanes);
-  if (!kMotion) return reach;
+  if (!kBothEnds) return reach;
   return max(broadcast(box + (6 + opposite(k)) * stride) + load(block + (6 + k) * kLanes), reach);
 }
 
 // The smallest over the six. Negative: separated on the same side at both ends.
-template <bool kMotion>
+template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap(const float* box, int stride, const float* block) {
-  F8 least = overlap_along<kMotion>(box, stride, block, 0);
-  for (int k = 1; k < 6; ++k) least = min(overlap_along<kMotion>(box, stride, block, k), least);
+  F8 least = overlap_along<kBothEnds>(box, stride, block, 0);
+  for (int k = 1; k < 6; ++k) least = min(overlap_along<kBothEnds>(box, stride, block, k), least);
   return least;
 }
 
 // The lanes that touch on an axis where equal floats need not be equal doubles.
-template <bool kMotion>
+template <bool kBothEnds>
 inline int touching(const float* box, int stride, const float* block, int rounded_axes) {
   int lanes = 0;
   for (int k = 0; k < 6; ++k) {
     if ((rounded_axes >> k % 3 & 1) == 0) continue;
-    lanes |= mask_zero(overlap_along<kMotion>(box, stride, block, k));
+    lanes |= mask_zero(overlap_along<kBothEnds>(box, stride, block, k));
   }
   return lanes;
 }
@@ -53,7 +53,7 @@ __attribute__((always_inline)) inline Reach reach(const float* box, int stride, 
   return r;
 }
 
-// Boxes that are apart at both ends, on different axes, may be together in between, or not: boxes_pass in
+// Boxes that are apart at both ends, on different axes, may be together in between, or not: boxes_overlap in
 // motion_box.hpp decides in double, from when the last axis lets them meet and when the first parts them.
 // Here it is decided in float where that leaves no doubt. A support y of a linear FloatMap is within u |Y| of
 // the Y it stands for, u = 2^-24 (1 + 2^-20), and |Yb| <= |Ya| + |S| for a sum S = Ya + Yb: s = fl(ya + yb) is
@@ -96,11 +96,11 @@ inline int certainly_together(const Together& least) {
 
 // The lanes whose boxes are certainly apart throughout, of those that are not so on one axis at both ends; and those for
 // which float leaves it open, among them all that may be apart on one axis at both ends: `least` then ends where it begins.
-struct Closer {
+struct MovingBoxes {
   int apart, unsure;
 };
 template <class Directions>
-inline Closer look_closer(const Directions& directions) {
+inline MovingBoxes moving_boxes_apart(const Directions& directions) {
   Together most, least;
   for (int k = 0; k < 6; ++k) {
     const Direction d = directions(k);

@@ -81,7 +81,7 @@ class Bvh final : public BroadPhase {
     PairKind kind;
     static bool meet(const void* context, int a, int b) {
       const Decide& d = *static_cast<const Decide*>(context);
-      return boxes_pass(d.input, d.kind, {a, b});
+      return boxes_overlap(d.input, d.kind, {a, b});
     }
     static bool excluded(const void* context, int a, int b) {
       const Decide& d = *static_cast<const Decide*>(context);

@@ -9,12 +9,12 @@ namespace ONSET_KERNEL {
 namespace {
 
 // The union of each lane's records, turned into rows; a record has a gap after each three supports.
-template <bool kMotion>
+template <bool kBothEnds>
 void fit_leaf(const FitArguments& a, std::size_t n) {
-  constexpr std::size_t kStride = kBoxStrideOf[kMotion];
+  constexpr std::size_t kStride = kBoxStrideOf[kBothEnds];
   const int* members = a.members + n * unsigned(a.members_each * kBlock);
-  float* out = a.tree.level[0] + n * unsigned(kRowsOf[kMotion] * kLanes);
-  for (int end = 0; end < (kMotion ? 2 : 1); ++end) {
+  float* out = a.tree.level[0] + n * unsigned(kRowsOf[kBothEnds] * kLanes);
+  for (int end = 0; end < (kBothEnds ? 2 : 1); ++end) {
     const float* supports = a.supports + end * kLanes;
     F8 row[8];
     for (int lane = 0; lane < kLanes; ++lane) {

@@ -42,9 +42,9 @@ class Traversal {
   }
 
  private:
-  static constexpr bool kMotion = kTest != BoxTest::swept, kPassing = kTest == BoxTest::passing;
-  static constexpr int kRows = kRowsOf[kMotion];
-  static constexpr int kBoxStride = kBoxStrideOf[kMotion];
+  static constexpr bool kBothEnds = kTest != BoxTest::swept, kMoving = kTest == BoxTest::moving;
+  static constexpr int kRows = kRowsOf[kBothEnds];
+  static constexpr int kBoxStride = kBoxStrideOf[kBothEnds];
   static constexpr bool kEdges = kSides == Sides::edges_edges;
   static constexpr int kOwn = kSides == Sides::vertices_faces ? 1 : 2, kOther = kEdges ? 2 : 3;  // vertices of a primitive
 
@@ -74,23 +74,23 @@ class Traversal {
     return tree.bodies[level + 1][block];
   }
 
-  // at_start and at_end only where boxes that pass are looked for.
+  // at_start and at_end only where moving boxes are looked for.
   __attribute__((always_inline)) static Reach reach_of(const float* box, int stride, const float* block) {
-    if constexpr (kPassing) return reach(box, stride, block);
-    return {overlap<kMotion>(box, stride, block), F8{}, F8{}};
+    if constexpr (kMoving) return reach(box, stride, block);
+    return {overlap<kBothEnds>(box, stride, block), F8{}, F8{}};
   }
 
   // Lanes of a block of nodes that may meet a box.
   int meeting(const float* box, int stride, const float* block) const {
     const Reach r = reach_of(box, stride, block);
     const int mask = mask_not_negative(r.at_both);
-    if (!kPassing || !t_.linear || (mask & mask_negative(r.at_start & r.at_end)) == 0) return mask;
+    if (!kMoving || !t_.linear || (mask & mask_negative(r.at_start & r.at_end)) == 0) return mask;
     const auto direction = [&](int k) {
       const int across = opposite(k);
       return Direction{broadcast(box + across * stride), broadcast(box + (6 + across) * stride),
                        load(block + k * kLanes), load(block + (6 + k) * kLanes)};
     };
-    return mask & ~look_closer(direction).apart;
+    return mask & ~moving_boxes_apart(direction).apart;
   }
 
   // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
@@ -227,18 +227,18 @@ class Traversal {
     return mask;
   }
 
-  // Lanes of `mask` for which signs in float may not tell: of boxes that pass, all that overlap at neither end, or only
+  // Lanes of `mask` for which signs in float may not tell: of moving boxes, all that overlap at neither end, or only
   // touch there; else those that touch, where some axis is rounded.
   static int in_doubt(int mask, const Reach& r, bool rounded) {
-    if (kPassing) return mask == 0 ? 0 : mask & mask_not_positive(r.at_start) & mask_not_positive(r.at_end);
+    if (kMoving) return mask == 0 ? 0 : mask & mask_not_positive(r.at_start) & mask_not_positive(r.at_end);
     return rounded ? mask & mask_zero(r.at_both) : 0;
   }
 
   // Puts off those of these lanes that float cannot decide; returns them. (Not inlined: the loop that it is called from has
   // no register to spare.)
   __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
-    if (!kPassing)
-      doubt &= touching<kMotion>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
+    if (!kMoving)
+      doubt &= touching<kBothEnds>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
     doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
     if (doubtful_.full()) settle_doubtful();
     return doubt;
@@ -250,8 +250,8 @@ class Traversal {
     for (int first = 0; first < doubtful_.count; first += kLanes) {
       const int *a = doubtful_.a + first, *b = doubtful_.b + first, left = doubtful_.count - first;
       const int lanes = left < kLanes ? (1 << left) - 1 : 0xff;
-      Closer p{0, 0xff};
-      if (kPassing && t_.linear) p = compare(a, b, left);
+      MovingBoxes p{0, 0xff};
+      if (kMoving && t_.linear) p = compare(a, b, left);
       for (int open = lanes & ~p.apart; open != 0; open &= open - 1) {
         const int lane = lowest_lane(open), x = query.ids[a[lane]], y = tree.ids[b[lane]];
         if ((p.unsure >> lane & 1) != 0 && !t_.meets(t_.context, x, y)) continue;
@@ -263,14 +263,14 @@ class Traversal {
   }
 
   // Eight leaves against eight others.
-  Closer compare(const int* a, const int* b, int count) const {
+  MovingBoxes compare(const int* a, const int* b, int count) const {
     const Leaves query(t_.query), tree(t_.tree);
     const float *boxes_a[kLanes], *boxes_b[kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const int from = l < count ? l : 0;
       boxes_a[l] = query.box(unsigned(a[from])), boxes_b[l] = tree.box(unsigned(b[from]));
     }
-    return look_closer([&](int k) {
+    return moving_boxes_apart([&](int k) {
       const int across = opposite(k);
       return Direction{collect(boxes_a, across * kLanes), collect(boxes_a, (6 + across) * kLanes), collect(boxes_b, k * kLanes),
                        collect(boxes_b, (6 + k) * kLanes)};
@@ -310,8 +310,8 @@ void traverse(const TraverseArguments& arguments) {
     return traverse_sides<BoxTest::swept, Sides::edges_faces>(arguments);
   switch (arguments.test) {
     case BoxTest::swept: return traverse_boxes<BoxTest::swept>(arguments);
-    case BoxTest::motion: return traverse_boxes<BoxTest::motion>(arguments);
-    case BoxTest::passing: return traverse_boxes<BoxTest::passing>(arguments);
+    case BoxTest::both_ends: return traverse_boxes<BoxTest::both_ends>(arguments);
+    case BoxTest::moving: return traverse_boxes<BoxTest::moving>(arguments);
   }
 }
 

@@ -174,7 +174,7 @@ inline V initial_gap(const V (&c)[K][3], V error) {  // the point found errs by 
 // s = max_k c_k + m, and with s = m - min_k c_k; between two ends of opposite sign that begins or ends at s0 / (s0 - s1). Signs are
 // exact, each root is known within 6u: 2^-20 = 16u is taken off.
 template <int K>
-inline F8::Mask never_together(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
+inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
   using V = F8;
   V begin = zero<V>(), end = one<V>();
   for (int a = 0; a < 3; ++a) {
@@ -217,7 +217,7 @@ inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
   normalise(wm);
   const V mm = demand(wm, d, s.error, pairs.maximum_norm);
   return bits((separates(s.c[0], middle, w0, wm, m0, mm) & separates(middle, s.c[1], wm, w1, mm, m1)) |
-              never_together(s.c[0], s.c[1], d + s.error));
+              moving_boxes_apart(s.c[0], s.c[1], d + s.error));
 }
 
 // Writes the first `valid` of eight rows but those that are apart; returns their number.

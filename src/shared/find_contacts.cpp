@@ -38,10 +38,10 @@ double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narr
   if (horizon > kShrinksUpTo) return std::min(horizon, 1.0);
   BroadPhaseInput shrunk =
       keep == Keep::all
-          ? broad_phase_input(mesh.data(), scene.motion, options, scene.reach, horizon, BoxTest::motion)
+          ? broad_phase_input(mesh.data(), scene.motion, options, scene.reach, horizon, BoxTest::both_ends)
           : *scene.tree;
   shrunk.horizon = horizon;
-  shrunk.test = BoxTest::motion;
+  shrunk.test = BoxTest::both_ends;
   scene.broad->refit(shrunk);
   return horizon;
 }
@@ -63,7 +63,7 @@ TraversalBounds bounds(const Options& options) {
 
 // Whether the boxes of the whole step, as an active set has them, let a pair meet.
 bool is_candidate(const void* scene, PairKind kind, IdPair pair) {
-  return boxes_pass(*static_cast<const Scene*>(scene)->whole, kind, pair);
+  return boxes_overlap(*static_cast<const Scene*>(scene)->whole, kind, pair);
 }
 
 }  // namespace

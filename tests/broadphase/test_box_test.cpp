@@ -31,24 +31,24 @@ double to_and_fro(int i) { return i % 2 == 0 ? 5 : -5; }
 
 }  // namespace
 
-TEST_CASE("the passing test is chosen where edges move by more than twice their size", "[unit]") {
-  CHECK(choice(edges(300, to_and_fro)) == BoxTest::passing);
-  CHECK(choice(edges(3, to_and_fro)) == BoxTest::passing);
-  CHECK(choice(edges(300, [](int i) { return 0.3 * to_and_fro(i); })) == BoxTest::motion);
-  CHECK(choice(edges(300, [](int) { return 0; })) == BoxTest::motion);
-  CHECK(choice(edges(0, to_and_fro)) == BoxTest::motion);
+TEST_CASE("the moving test is chosen where edges move by more than twice their size", "[unit]") {
+  CHECK(choice(edges(300, to_and_fro)) == BoxTest::moving);
+  CHECK(choice(edges(3, to_and_fro)) == BoxTest::moving);
+  CHECK(choice(edges(300, [](int i) { return 0.3 * to_and_fro(i); })) == BoxTest::both_ends);
+  CHECK(choice(edges(300, [](int) { return 0; })) == BoxTest::both_ends);
+  CHECK(choice(edges(0, to_and_fro)) == BoxTest::both_ends);
 }
 
 TEST_CASE("what all edges have in common, and one that has flown off, decide nothing", "[unit]") {
-  CHECK(choice(edges(300, [](int) { return 1000; })) == BoxTest::motion);
-  CHECK(choice(edges(300, [](int i) { return i == 0 ? 1e9 : 0; })) == BoxTest::motion);
-  CHECK(choice(edges(300, [](int i) { return i == 0 ? 1e9 : to_and_fro(i); })) == BoxTest::passing);
+  CHECK(choice(edges(300, [](int) { return 1000; })) == BoxTest::both_ends);
+  CHECK(choice(edges(300, [](int i) { return i == 0 ? 1e9 : 0; })) == BoxTest::both_ends);
+  CHECK(choice(edges(300, [](int i) { return i == 0 ? 1e9 : to_and_fro(i); })) == BoxTest::moving);
 }
 
 TEST_CASE("points of no size are left to the cheaper test", "[unit]") {
   Soup points = edges(300, to_and_fro);
   for (auto& edge : points.mesh.edges) edge[1] = edge[0];
-  CHECK(choice(points) == BoxTest::motion);
+  CHECK(choice(points) == BoxTest::both_ends);
 }
 
 TEST_CASE("the choice is the same for a scene mirrored, with axes exchanged, or of another scale",

@@ -46,7 +46,7 @@ bool passes(BoxTest test, const ExactBox& a, const ExactBox& b, const Rational& 
       if (s0 < 0 && s1 >= 0) begin = std::max(begin, Rational(s0 / (s0 - s1)));
       if (s0 >= 0 && s1 < 0) end = std::min(end, Rational(s0 / (s0 - s1)));
     }
-  return test != BoxTest::passing || begin * (1 - late) <= end * (1 + late);
+  return test != BoxTest::moving || begin * (1 - late) <= end * (1 + late);
 }
 
 double largest_coordinate(const Motion& motion) {
@@ -96,7 +96,7 @@ int expect_definition(const BroadPhaseInput& input, double slack) {
         if (is_candidate && !passes(input.test, box_a, box_b, slack, Rational(0x1p-44)))
           FAIL("too far apart: kind " << int(kind) << " pair " << a << " " << b);
         taking_turns +=
-            !pass && input.test == BoxTest::passing && passes(BoxTest::motion, box_a, box_b, 0, 0);
+            !pass && input.test == BoxTest::moving && passes(BoxTest::both_ends, box_a, box_b, 0, 0);
       }
   }
   return taking_turns;
@@ -123,7 +123,7 @@ TEST_CASE("boxes without inflation are exact", "[oracle]") {
   for (const Soup& soup : small_soups()) {
     INFO(soup.name);
     const Motion motion = soup.motion();
-    for (BoxTest test : {BoxTest::swept, BoxTest::motion, BoxTest::passing}) {
+    for (BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving}) {
       BroadPhaseInput input{soup.mesh, motion};
       input.test = test;
       taking_turns += expect_definition(input, 0);
@@ -138,7 +138,7 @@ TEST_CASE("inflation, thickness and horizon round outward, by a few units in the
     INFO(soup.name);
     const Motion motion = soup.motion();
     const double size = largest_coordinate(motion);
-    for (BoxTest test : {BoxTest::swept, BoxTest::motion, BoxTest::passing})
+    for (BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving})
       for (double relative : {0.0, 0.1})
         for (double horizon : {0.0, 0.3, 1.0}) {
           soup.mesh.thickness.clear();

@@ -188,7 +188,7 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
                                       {soup.x_t1.data(), soup.mesh.num_vertices});
     REQUIRE(motion.status == Outcome::free);
     const Motion plain = soup.motion();
-    for (const BoxTest test : {BoxTest::swept, BoxTest::motion, BoxTest::passing}) {
+    for (const BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving}) {
       BroadPhaseInput unfiltered{soup.mesh, plain}, input{mesh.data(), motion};
       unfiltered.test = input.test = test;
       unfiltered.inflation = input.inflation = round % 3 == 0 ? 0.05 : 0;
