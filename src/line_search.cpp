@@ -36,21 +36,21 @@ void check_step(const char* name, double step) {
 
 }  // namespace
 
-struct LineSearch::Held {
+struct LineSearch::Impl {
   Mesh mesh;
   Options options;
   double keep, d_hat, rounding = 0;
   std::unique_ptr<Scene> scene;  // its motion; the tree goes once the pairs are held, and stays where they are too many
   std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
   StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
-  HeldPairs pairs, near;         // that may limit a step; that may come within d_hat on the way
+  PairList pairs, near;         // that may limit a step; that may come within d_hat on the way
 
   NarrowPhaseInput input() const {
     return stored_step_input(mesh.data(), scene->motion, start.stats, options, keep, rounding);
   }
   bool fill(Budget& budget);
-  const PairSource& source(const HeldPairs& held) const {
-    return scene->broad ? static_cast<const PairSource&>(*scene->broad) : held;
+  const PairSource& source(const PairList& list) const {
+    return scene->broad ? static_cast<const PairSource&>(*scene->broad) : list;
   }
   std::vector<double> at(double step) const;
 };
@@ -58,21 +58,21 @@ struct LineSearch::Held {
 // Beyond reach for the whole of the exact motion, a pair is beyond d_hat wherever the line search stops, in
 // stored doubles too.
 // False where they are too many to be held.
-bool LineSearch::Held::fill(Budget& budget) {
+bool LineSearch::Impl::fill(Budget& budget) {
   const std::int64_t most = options.memory_limit / std::int64_t(sizeof(IdPair));
   const NarrowPhase narrow(input());
-  std::vector<Holder> holders{{narrow, pairs}};
-  if (d_hat == 0) return hold(*scene->broad, holders, most, budget);
+  std::vector<CulledList> lists{{narrow, pairs}};
+  if (d_hat == 0) return cull_into(*scene->broad, lists, most, budget);
   Options beyond = options;
   beyond.min_separation = euclidean_reach(mesh.data(), options, d_hat, rounding);
   beyond.norm = Norm::euclidean;
   const NarrowPhase far({mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, beyond});
-  holders.push_back({far, near});
-  return hold(*scene->broad, holders, most, budget);
+  lists.push_back({far, near});
+  return cull_into(*scene->broad, lists, most, budget);
 }
 
 // The positions that x_t0 + step dx rounds to, 4 doubles a vertex, in the motion's order of axes.
-std::vector<double> LineSearch::Held::at(double step) const {
+std::vector<double> LineSearch::Impl::at(double step) const {
   const Motion& m = scene->motion;
   std::vector<double> x(std::size_t(m.num_vertices) * 4);
   for (int v = 0; v < m.num_vertices; ++v)
@@ -83,12 +83,12 @@ std::vector<double> LineSearch::Held::at(double step) const {
 
 LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const Options& options,
                        double keep, double d_hat)
-    : held_(new Held{mesh, options, keep, d_hat, 0, {}, {}, {}, {}, {}}) {
+    : impl_(new Impl{mesh, options, keep, d_hat, 0, {}, {}, {}, {}, {}}) {
   check(options);
   check_d_hat(d_hat, true);
   check_keep(keep);
   const std::vector<double> x_t1 = sum(x_t0, dx);
-  Held& h = *held_;
+  Impl& h = *impl_;
   for (std::ptrdiff_t i = 0; d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
   in_arena(options.threads, [&] {
     const Positions end(x_t1.data(), x_t0.rows());
@@ -99,21 +99,21 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
     if (h.start.outcome != Outcome::free) return;
     h.rounding = h.scene->rounding;
     h.start.rounding = reported_rounding(h.rounding);
-    const bool held = h.scene->broad && h.fill(budget);
+    const bool fits = h.scene->broad && h.fill(budget);
     h.start.outcome = budget.outcome();
-    if (held) h.scene->give_back_broad();
+    if (fits) h.scene->give_back_broad();
   });
 }
 LineSearch::~LineSearch() = default;
 LineSearch::LineSearch(LineSearch&&) noexcept = default;
 LineSearch& LineSearch::operator=(LineSearch&&) noexcept = default;
 
-PairCounts LineSearch::candidates() const { return held_->pairs.counts(); }
-PairCounts LineSearch::close_candidates() const { return held_->near.counts(); }
+PairCounts LineSearch::candidates() const { return impl_->pairs.counts(); }
+PairCounts LineSearch::close_candidates() const { return impl_->near.counts(); }
 
 LineSearchStep LineSearch::largest_step(double upper) const {
   check_step("upper", upper);
-  const Held& h = *held_;
+  const Impl& h = *impl_;
   LineSearchStep r;
   r.result = h.start;
   r.keep = h.keep;
@@ -140,7 +140,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
 
 ClosePairs LineSearch::close_pairs(double step) const {
   check_step("step", step);
-  const Held& h = *held_;
+  const Impl& h = *impl_;
   if (h.d_hat == 0) throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
   ClosePairs r;
   r.d_hat = h.d_hat;

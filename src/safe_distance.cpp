@@ -119,11 +119,11 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     const Clock clock;
     Budget budget(options);
     const Motion motion = make_motion(mesh.data().num_vertices, x_t0, x_t1);
-    HeldPairs held;
-    for (const ClosePair& p : close) held.of(p.kind).push_back({p.a, p.b});
+    PairList listed;
+    for (const ClosePair& p : close) listed.of(p.kind).push_back({p.a, p.b});
     const double moved = most_moved(motion), rounding = rounding_of_distances(motion);
     const double bound = time_for_others((1 - keep) * close.d_hat - 2 * rounding, moved);
-    r = step_of(mesh, motion, held, options, keep, budget, std::min(bound, 1.0));
+    r = step_of_pairs(mesh, motion, listed, options, keep, budget, std::min(bound, 1.0));
     if (motion.status != Outcome::free) return;
     if (const int torn = torn_vertex(mesh, x_t0, x_t1); torn >= 0) {
       r.step = r.shortest = r.toi = 0;

@@ -74,14 +74,14 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
                                            const Options& options, double keep) {
   check(options);
   check_keep(keep);
-  HeldPairs pairs;
+  PairList pairs;
   pairs.of(PairKind::vertex_face) = checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face);
   pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge);
   StepResult r;
   in_arena(options.threads, [&] {
     const Clock clock;
     Budget budget(options);
-    r = step_of(mesh, make_motion(mesh.data().num_vertices, x_t0, x_t1), pairs, options, keep, budget);
+    r = step_of_pairs(mesh, make_motion(mesh.data().num_vertices, x_t0, x_t1), pairs, options, keep, budget);
     r.stats.seconds_total = clock.seconds();
   });
   return r;

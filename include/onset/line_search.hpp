@@ -57,8 +57,8 @@ class ONSET_API LineSearch {
   PairCounts close_candidates() const;
 
  private:
-  struct Held;
-  std::unique_ptr<Held> held_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace onset

@@ -9,7 +9,7 @@
 
 namespace onset {
 
-class HeldPairs final : public PairSource {
+class PairList final : public PairSource {
  public:
   std::size_t blocks(PairKind kind) const override;
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override;
@@ -24,14 +24,14 @@ class HeldPairs final : public PairSource {
   std::vector<IdPair> vertex_face_, edge_edge_;
 };
 
-// What the culls of `narrow` cannot certify goes into `held`.
-struct Holder {
+// What the culls of `narrow` cannot certify goes into `list`.
+struct CulledList {
   const NarrowPhase& narrow;
-  HeldPairs& held;
+  PairList& list;
 };
 
-// One traversal of `broad` for all holders; each holds its pairs in the order of ids. No more than `most` in all, or none: then
+// One traversal of `broad` for all lists; each has its pairs in the order of ids. No more than `most` in all, or none: then
 // returns false. Ends early where the budget is spent.
-bool hold(const PairSource& broad, const std::vector<Holder>& holders, std::int64_t most, Budget& budget);
+bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most, Budget& budget);
 
 }  // namespace onset

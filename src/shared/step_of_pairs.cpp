@@ -8,7 +8,7 @@
 
 namespace onset {
 
-StepResult step_of(const Mesh& mesh, const Motion& motion, const HeldPairs& pairs, const Options& options,
+StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs, const Options& options,
                    double keep, Budget& budget, double upper) {
   StepResult r;
   const Clock clock;
