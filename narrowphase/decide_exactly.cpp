@@ -6,24 +6,24 @@
 
 namespace onset {
 
-bool NarrowPhase::settles(const Case& c) const {
+bool NarrowPhase::uses_exact(const Case& c) const {
   return in_.options.certainty != CertaintyLevel::conservative && c.separation() == 0;
 }
-bool NarrowPhase::settles_completely(const Case& c) const {
-  return settles(c) && in_.options.certainty == CertaintyLevel::exact;
+bool NarrowPhase::decides_completely(const Case& c) const {
+  return uses_exact(c) && in_.options.certainty == CertaintyLevel::exact;
 }
 
 ExactPair NarrowPhase::exact_pair_of(const Case& c) const { return exact_pair(c.kind, in_.motion, c.vertices()); }
 
 // unknown: not asked, or too dear. Contacts before `from` > 0 do not count. Within rounding of touching at the
 // start, doubles cannot tell a contact soon after from parting: those are asked whatever the certainty.
-ExactAnswer NarrowPhase::settle(const Case& c, const KernelResult& found, double from) const {
+ExactAnswer NarrowPhase::decide_exactly(const Case& c, const KernelResult& found, double from) const {
   if (found.verdict == Verdict::initial && from == 0 && c.separation() == 0) {
     const auto time = exact_first_contact(exact_pair_of(c));
     return time ? ExactAnswer{Answer::yes, *time} : ExactAnswer{Answer::no, {}};
   }
-  if (!settles(c)) return {Answer::unknown, {}};
-  const bool complete = settles_completely(c);
+  if (!uses_exact(c)) return {Answer::unknown, {}};
+  const bool complete = decides_completely(c);
   if (!complete && found.verdict == Verdict::budget)
     return {Answer::unknown, {}};  // as little as was asked for
   const ExactPair pair = exact_pair_of(c);
@@ -54,7 +54,7 @@ void NarrowPhase::sharpen(PairKind kind, PairResult& result) const {
   NarrowPhaseScratch scratch;
   const KernelPairs one = prepare(kind, &result.pair, 1, {}, scratch);
   const Case c{kind, result.pair, one, 0};
-  if (!settles_completely(c)) return;
+  if (!decides_completely(c)) return;
   const auto time = exact_first_contact(exact_pair_of(c));
   if (!time) return;
   if (result.outcome == Outcome::contact) result.toi = result.step_limit = time->lo;

@@ -287,20 +287,20 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
     }
   }
   // What stalls is asked first whether it touches at all: that takes less than to find out in doubles.
-  ExactAnswer truth{Answer::unknown, {}};
+  ExactAnswer exact{Answer::unknown, {}};
   if (in_.options.narrow_phase != NarrowPhaseMethod::inclusion && found.verdict == Verdict::stalled)
-    truth = settle(c, found, from);
+    exact = decide_exactly(c, found, from);
   bool searched = false;
-  if (truth.answer == Answer::unknown) found = carry_on(c, found, stats, searched);
+  if (exact.answer == Answer::unknown) found = carry_on(c, found, stats, searched);
   if (found.verdict == Verdict::free) return;
-  if (truth.answer == Answer::unknown) truth = settle(c, found, from);
-  if (truth.answer == Answer::no) return;
-  const bool real = truth.answer == Answer::yes;
-  if (found.verdict == Verdict::initial && !(real && truth.time.lo > 0))
-    return finish_initial(c, corners, d > 0 ? start : bounds_at(c, corners, 0), found, truth, stats, out);
+  if (exact.answer == Answer::unknown) exact = decide_exactly(c, found, from);
+  if (exact.answer == Answer::no) return;
+  const bool real = exact.answer == Answer::yes;
+  if (found.verdict == Verdict::initial && !(real && exact.time.lo > 0))
+    return finish_initial(c, corners, d > 0 ? start : bounds_at(c, corners, 0), found, exact, stats, out);
   const bool later =
-      real && truth.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
-  if (later) found.t = truth.time.lo;
+      real && exact.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
+  if (later) found.t = exact.time.lo;
   // These moved on after their last look; where the inclusion root finder did, it has a bound of its own,
   // which is the sharper one for slivers.
   if (found.verdict != Verdict::contact || found.checks <= 1 || later) {
@@ -310,11 +310,11 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   // Corners move by at most 2 rho in the whole step, so far apart is a pair that has touched by time.hi.
   if (later)
     found.distance = std::min(
-        found.distance, 2 * corners_of(c).rho * (truth.time.hi - truth.time.lo) * (1 + 0x1p-40) + 0x1p-1074);
+        found.distance, 2 * corners_of(c).rho * (exact.time.hi - exact.time.lo) * (1 + 0x1p-40) + 0x1p-1074);
   if (found.verdict == Verdict::budget && !real) r.outcome = Outcome::budget;
   r.toi = r.step_limit = found.t;
   if (real || seen_within_separation(c, found)) r.certainty = r.limit_certainty = Certainty::certain;
-  if (real && from == 0) r.toi_hi = truth.time.hi;
+  if (real && from == 0) r.toi_hi = exact.time.hi;
   r.tolerance = std::max(0.0, (found.distance - d) * found.unit);
   out.push_back(r);
 }
@@ -322,19 +322,19 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
 // Touching or closer than d at the start. From which side a pair came that touches is not known: it blocks the step, unless
 // the caller says otherwise. Where the motion parts the others the step goes on, to the next contact if there is one.
 void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Bounds& start,
-                                 const KernelResult& found, const ExactAnswer& truth, NarrowPhaseStats& stats,
+                                 const KernelResult& found, const ExactAnswer& exact, NarrowPhaseStats& stats,
                                  std::vector<PairResult>& out) const {
   const double d = found.separation;
   PairResult r{c.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
                Outcome::initial_contact};
   const bool touching =
-      truth.answer == Answer::yes ? truth.time.hi == 0 : start.lower <= 0 && touches_at_start(c);
+      exact.answer == Answer::yes ? exact.time.hi == 0 : start.lower <= 0 && touches_at_start(c);
   if (touching || start.upper <= d)
     r.certainty = Certainty::touching_at_start;
-  else if (truth.answer == Answer::yes)
+  else if (exact.answer == Answer::yes)
     r.certainty = Certainty::certain;
   if (touching) r.toi_hi = 0;
-  if (truth.answer == Answer::yes) r.toi_hi = truth.time.hi;
+  if (exact.answer == Answer::yes) r.toi_hi = exact.time.hi;
   Parting parting;
   if (!touching || in_.options.touching_may_pass_through) parting = find_parting_of(c, corners, start, d, touching);
   if (parting.t > 0) r.outcome = Outcome::initial_separating;

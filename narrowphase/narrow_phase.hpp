@@ -132,11 +132,11 @@ class NarrowPhase {
   KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
   KernelResult carry_on(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats, bool& searched) const;
 
-  // Exact arithmetic (settle.cpp).
-  bool settles(const Case& c) const;  // whether it is asked at all
-  bool settles_completely(const Case& c) const;
+  // Exact arithmetic (decide_exactly.cpp).
+  bool uses_exact(const Case& c) const;  // whether it is asked at all
+  bool decides_completely(const Case& c) const;
   ExactPair exact_pair_of(const Case& c) const;
-  ExactAnswer settle(const Case& c, const KernelResult& found, double from) const;
+  ExactAnswer decide_exactly(const Case& c, const KernelResult& found, double from) const;
   bool touches_at_start(const Case& c) const;
   bool seen_within_separation(const Case& c, const KernelResult& found) const;
 
@@ -144,7 +144,7 @@ class NarrowPhase {
   void finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
               std::vector<PairResult>& out) const;
   void finish_initial(const Case& c, const Corners& corners, const Bounds& start, const KernelResult& found,
-                      const ExactAnswer& truth, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
+                      const ExactAnswer& exact, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
 
   // Its start (pair_start.cpp).
   bool is_welded(const Case& c) const;

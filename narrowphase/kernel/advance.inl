@@ -229,7 +229,7 @@ struct Pending {
   int owner[4];
   int waiting = 0;
 
-  void settle(const int (&verdict)[4], KernelResult* results) {
+  void finish(const int (&verdict)[4], KernelResult* results) {
     for (int l = 0; l < 4; ++l) {
       if (!(waiting >> l & 1) || verdict[l] < 0) continue;
       report(state, l, Verdict(verdict[l]), results[owner[l]]);
@@ -249,10 +249,10 @@ inline void refill(const KernelPairs& pairs, const int* subset, int first, int c
   set_up(pairs, rows, pending.state);
   if (resume != nullptr) return restore(resume, pending.owner, pending.state);
   first_check(pairs, rows, pending.state, verdict);
-  pending.settle(verdict, results);
+  pending.finish(verdict, results);
   if (pending.waiting == 0) return;
   check(pairs, pending.state, verdict);
-  pending.settle(verdict, results);
+  pending.finish(verdict, results);
 }
 
 template <int K>
