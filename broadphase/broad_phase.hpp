@@ -19,7 +19,7 @@ struct BroadPhaseInput {
   const Motion& motion;
   double inflation =
       0;  // every primitive is widened by this, plus the largest thickness of its vertices, rounded outward
-  double horizon = 1;  // only the motion on [0, horizon] matters; horizon 1 means the exact end positions
+  double t_max = 1;  // only the motion on [0, t_max] matters; t_max 1 means the exact end positions
   BoxTest test = BoxTest::both_ends;
   Kernel kernel = Kernel::automatic;
   // For primitives all of whose vertices are static, in place of `inflation`; < 0: the same. Their boxes are
@@ -42,7 +42,7 @@ inline bool is_wanted(const BroadPhaseInput& input, Primitive kind) {
 class BroadPhase : public PairSource {
  public:
   virtual const char* name() const = 0;
-  // New boxes in the memory and the order already there: another motion, horizon, inflation or test over the
+  // New boxes in the memory and the order already there: another motion, t_max, inflation or test over the
   // same mesh (the same MeshData object) and kinds of pairs. Afterwards as if made from `input`, up to the
   // order of pairs.
   virtual void refit(const BroadPhaseInput& input) = 0;

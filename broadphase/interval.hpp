@@ -1,4 +1,4 @@
-// How a coordinate is widened: for rounding at a horizon, and by an inflation.
+// How a coordinate is widened: for rounding at t_max, and by an inflation.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Interval {
 // one more when the bound is applied; 8 u = 2^-50 covers them with the second-order terms, 2^-1070 the
 // underflow of the products. The exact point lies between the ends, so clamping to them keeps it (and makes
 // vertices at rest exact).
-inline Interval at_horizon(double x_t0, double x_t1, double h) {
+inline Interval at_t_max(double x_t0, double x_t1, double h) {
   if (h == 1) return {x_t1, x_t1};
   const double x = (1 - h) * x_t0 + h * x_t1;
   const double error = std::max(std::fabs(x_t0), std::fabs(x_t1)) * 0x1p-50 + 0x1p-1070;

@@ -73,10 +73,10 @@ MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, doubl
   for (std::size_t i = 0; i < 3; ++i) {
     const double *t0 = input.motion.t0(vertices[0]), *t1 = input.motion.t1(vertices[0]);
     double lo_t0 = t0[i], hi_t0 = t0[i];
-    Interval end = at_horizon(t0[i], t1[i], input.horizon);
+    Interval end = at_t_max(t0[i], t1[i], input.t_max);
     for (std::size_t k = 1; k < 3; ++k) {
       const double x0 = input.motion.t0(vertices[k])[i], x1 = input.motion.t1(vertices[k])[i];
-      const Interval next = at_horizon(x0, x1, input.horizon);
+      const Interval next = at_t_max(x0, x1, input.t_max);
       lo_t0 = std::min(lo_t0, x0), hi_t0 = std::max(hi_t0, x0);
       end = {std::min(end.lo, next.lo), std::max(end.hi, next.hi)};
     }

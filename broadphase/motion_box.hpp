@@ -10,7 +10,7 @@
 
 namespace onset {
 
-// Closed boxes of the primitive at t = 0 and at the horizon, widened by its inflation (rounded outward; exact
+// Closed boxes of the primitive at t = 0 and at t_max, widened by its inflation (rounded outward; exact
 // without one).
 struct MotionBox {
   std::array<double, 3> lo_t0, hi_t0, lo_t1, hi_t1;

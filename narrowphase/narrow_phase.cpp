@@ -13,9 +13,9 @@
 namespace onset {
 namespace {
 
-// With fewer checks than this a pair may be reported far from contact, and a horizon could hide it: then it
+// With fewer checks than this a pair may be reported far from contact, and t_max could hide it: then it
 // is not used.
-constexpr std::int64_t kChecksForHorizon = 1000;
+constexpr std::int64_t kChecksForTMax = 1000;
 
 double power_of_two_near_one_over(double x) {
   return x > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(x)) : 0x1p1000;
@@ -79,7 +79,7 @@ double reported_within(double tolerance, double extent) {
   return std::max(tolerance, 0x1p-45 * extent + 0x1p-1070) * (1 + 0x1p-40);
 }
 
-bool NarrowPhase::uses_horizon() const { return in_.options.max_checks >= kChecksForHorizon; }
+bool NarrowPhase::uses_t_max() const { return in_.options.max_checks >= kChecksForTMax; }
 
 void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
                           NarrowPhaseScratch& scratch) const {
@@ -102,7 +102,7 @@ void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
   }
 }
 
-KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon,
+KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                                  NarrowPhaseScratch& scratch) const {
   look_up(kind, pairs, count, scratch);
   // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
@@ -120,15 +120,15 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           in_.keep,
           in_.stored ? kStoring : 0,
           in_.stored ? kStoredRoundings * in_.rounding : 0,
-          uses_horizon() ? std::min(horizon.culls, 1.0) : 1,
-          uses_horizon() ? std::min(horizon.advancement, 1.0) : 1,
+          uses_t_max() ? std::min(t_max.culls, 1.0) : 1,
+          uses_t_max() ? std::min(t_max.advancement, 1.0) : 1,
           in_.options.norm == Norm::maximum,
           inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
 }
 
-KernelPairs NarrowPhase::without_storing(KernelPairs pairs, double horizon) {
+KernelPairs NarrowPhase::without_storing(KernelPairs pairs, double t_max) {
   pairs.keep = pairs.storing = pairs.cull_beyond = 0;
-  pairs.horizon = pairs.cull_horizon = horizon;
+  pairs.t_max = pairs.cull_t_max = t_max;
   return pairs;
 }
 
@@ -147,10 +147,10 @@ void NarrowPhase::cull(PairKind kind, const IdPair* pairs, std::size_t count, Na
   for (int i = 0; i < survivors; ++i) out.push_back(pairs[scratch.survivors[std::size_t(i)]]);
 }
 
-void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon,
+void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                           NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const {
   if (count == 0) return;
-  const KernelPairs input = prepare(kind, pairs, count, horizon, scratch);
+  const KernelPairs input = prepare(kind, pairs, count, t_max, scratch);
   const int survivors = cull(kind, input, scratch);
   scratch.results.resize(std::size_t(survivors));
   advance(kind, input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
@@ -190,7 +190,7 @@ void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int s
   }
   if (scratch.asked.empty()) return;
   scratch.exact_results.resize(scratch.asked.size());
-  advance(kind, without_storing(input, input.horizon), scratch.asked.data(), int(scratch.asked.size()), nullptr,
+  advance(kind, without_storing(input, input.t_max), scratch.asked.data(), int(scratch.asked.size()), nullptr,
           scratch.exact_results.data());
   for (std::size_t k = 0; k < scratch.asked.size(); ++k)
     scratch.touches[std::size_t(scratch.places[k])] = scratch.exact_results[k].verdict != Verdict::free;
@@ -349,7 +349,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Bo
     later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::budget;
     std::vector<PairResult> next;
     KernelPairs whole = c.input;
-    whole.horizon = whole.cull_horizon = 1;  // what is reported at 0 is reported with its step_limit
+    whole.t_max = whole.cull_t_max = 1;  // what is reported at 0 is reported with its step_limit
     finish({c.kind, c.pair, whole, c.row}, later, parting.t, stats, next);
     r.step_limit = INFINITY;
     if (!next.empty()) {

@@ -88,17 +88,17 @@ class NarrowPhase {
 
   // Pairs certified apart beyond these may be left out, by the culls and by advancement; the rest have the same
   // results whatever they are.
-  struct Horizon {
+  struct TMax {
     double culls = 1, advancement = 1;
   };
   // Appends the pairs of the batch that are not free (in the batch's order); how many of these are contacts,
   // and their outcomes, is for the caller to count: it may drop some.
-  void process(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon, NarrowPhaseScratch& scratch,
+  void process(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max, NarrowPhaseScratch& scratch,
                std::vector<PairResult>& out) const;
   // Appends the pairs of the batch that the culls cannot certify as free.
   void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
             std::vector<IdPair>& out) const;
-  bool uses_horizon() const;
+  bool uses_t_max() const;
   // Gives a contact of this pair, found at CertaintyLevel::exact, its exact time: adjacent doubles toi and
   // toi_hi.
   void sharpen(PairKind kind, PairResult& result) const;
@@ -116,10 +116,10 @@ class NarrowPhase {
   };
   struct Bounds;  // of a pair's distance at one time, and a direction that shows it (pair_start.cpp)
 
-  KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, Horizon horizon,
+  KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                       NarrowPhaseScratch& scratch) const;
   // Of the exact motion.
-  static KernelPairs without_storing(KernelPairs pairs, double horizon);
+  static KernelPairs without_storing(KernelPairs pairs, double t_max);
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
   void advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const;
   void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;

@@ -50,7 +50,7 @@ void NarrowPhase::note_kept(const Case& c, double share, NarrowPhaseStats& stats
 
 void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
                                 std::vector<PairResult>& out) const {
-  const KernelPairs plain = without_storing(c.input, 1);  // so that what it says does not depend on a horizon
+  const KernelPairs plain = without_storing(c.input, 1);  // so that what it says does not depend on t_max
   const Case exact{c.kind, c.pair, plain, c.row};
   std::vector<PairResult> contact;  // of the exact motion: one at most
   StoredLimit limit{0, checked};

@@ -151,7 +151,7 @@ Supports make_supports(const BroadPhaseInput& input, double inflation, const Flo
                        const int* ids, std::size_t count) {
   const bool swept = input.test == BoxTest::swept;
   const bool points =
-      kind == Primitive::vertex && input.mesh.thickness.empty() && input.horizon == 1;
+      kind == Primitive::vertex && input.mesh.thickness.empty() && input.t_max == 1;
   const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
   Supports s;
   s.count = count;

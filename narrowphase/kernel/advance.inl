@@ -130,7 +130,7 @@ inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResul
 template <int K>
 inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const KernelPairs& pairs, int (&verdict)[4]) {
   const int contact = bits(check.contact), stuck = bits(check.stuck);
-  const int done = bits(s.t >= D4::all(1)), beyond = bits(s.t > D4::all(pairs.horizon));
+  const int done = bits(s.t >= D4::all(1)), beyond = bits(s.t > D4::all(pairs.t_max));
   const int spent = bits(s.checks >= D4::all(static_cast<double>(pairs.max_checks)));
   for (int l = 0; l < 4; ++l) {
     const int bit = 1 << l;

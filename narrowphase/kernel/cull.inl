@@ -12,13 +12,13 @@ struct FloatPairs {
   F8 error;       // bound of a coefficient's error
 };
 
-// Only [0, horizon] matters: the far end moves there. Certified to stay beyond d + reach until then, a pair cannot be reported
-// earlier unless it spends its checks, so the limiting pair is the same as without a horizon. (In double the lerp's 3u is far
+// Only [0, t_max] matters: the far end moves there. Certified to stay beyond d + reach until then, a pair cannot be reported
+// earlier unless it spends its checks, so the limiting pair is the same as without t_max. (In double the lerp's 3u is far
 // below float's rounding; rounded_corners counts its own.)
 template <class V, int K>
-inline void cut_short(V (&c)[2][K][3], V horizon) {
+inline void cut_short(V (&c)[2][K][3], V t_max) {
   for (int k = 0; k < K; ++k)
-    for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], horizon);
+    for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], t_max);
 }
 
 // Which pairs are in the lanes: those in a row, whose addresses need less arithmetic, or a list.
@@ -35,7 +35,7 @@ struct Listed {
 
 template <class Rows>
 inline F8 float_separation(const KernelPairs& pairs, Rows rows) {
-  const double beyond = pairs.cull_horizon < 1 ? pairs.reach : 0;
+  const double beyond = pairs.cull_t_max < 1 ? pairs.reach : 0;
   double of_pair[8];
   for (int l = 0; l < 8; ++l) of_pair[l] = (pairs.separation[rows[l]] + pairs.cull_beyond + beyond) * pairs.scale;
   return to_float(D4::load(of_pair), D4::load(of_pair + 4)) * F8::all(1 + 0x1p-22f);
@@ -60,7 +60,7 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
     Points<D4> p;
     gather(pairs, rows.from(4 * half), p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
-    if (pairs.cull_horizon < 1) cut_short(lanes[half], D4::all(pairs.cull_horizon));
+    if (pairs.cull_t_max < 1) cut_short(lanes[half], D4::all(pairs.cull_t_max));
   }
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < K; ++k)
@@ -70,8 +70,8 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
 }
 
 // The same from rounded positions. The difference of two errs by what these do, and by u of itself in place of the rounding to
-// float above. A corner (1 - t) a + t b cut short at the horizon t errs, with |t b| <= 2 rho for the rho of what is left, by 3u
-// more for t's own rounding to float, 5u for its terms and their sum, and u for b: 16u with the 7u above. A horizon below 2^-126
+// float above. A corner (1 - t) a + t b cut short at t_max t errs, with |t b| <= 2 rho for the rho of what is left, by 3u
+// more for t's own rounding to float, 5u for its terms and their sum, and u for b: 16u with the 7u above. t_max below 2^-126
 // is rounded by 2^-150 at most, perhaps to 0: that moves a corner by 2^-149 rho, which the second-order part of 16u has room for.
 // Whatever is added up then, the vertices' errors weigh no more than |w|.
 template <int K, class Rows>
@@ -87,8 +87,8 @@ inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& 
     of_vertex[i] = x[3];
   }
   for (int end = 0; end < 2; ++end) corners_of(p[end], out.c[end]);
-  const bool is_cut = pairs.cull_horizon < 1;
-  if (is_cut) cut_short(out.c, V::all(static_cast<float>(pairs.cull_horizon)));
+  const bool is_cut = pairs.cull_t_max < 1;
+  if (is_cut) cut_short(out.c, V::all(static_cast<float>(pairs.cull_t_max)));
   out.d = float_separation(pairs, rows);
   const V of_positions = K == 3 ? of_vertex[0] + max(of_vertex[1], max(of_vertex[2], of_vertex[3]))
                                 : max(of_vertex[0], of_vertex[1]) + max(of_vertex[2], of_vertex[3]);

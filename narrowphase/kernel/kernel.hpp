@@ -20,8 +20,8 @@ struct KernelPairs {
   // also a pair whose gap is too small for that, or not known well, is `initial`.
   double keep, storing;
   double cull_beyond;   // model length: kStoredRoundings times that bound for all pairs, for the culls; 0 where storing is 0
-  double cull_horizon;  // pairs certified apart until then by the culls, or
-  double horizon;       // beyond this time by advancement, may be dropped as free
+  double cull_t_max;  // pairs certified apart until then by the culls, or
+  double t_max;       // beyond this time by advancement, may be dropped as free
   bool maximum_norm;  // d is measured in the L-infinity norm
   long long max_checks;
 };
@@ -31,7 +31,7 @@ constexpr double kStoredRoundings = 4;
 constexpr double kStoredLeast = 0x1p-1070;
 
 enum class Verdict : int {
-  free,     // certified apart on the whole step (or beyond the horizon)
+  free,     // certified apart on the whole step (or beyond t_max)
   contact,  // within d + delta at t
   initial,  // not certifiably farther apart than d at t = 0, or not by enough to be stored
   stalled,  // apart until t, progress slow

@@ -15,18 +15,18 @@ constexpr std::size_t kManyBlocks = 512;
 std::size_t sampled_stride(const BroadPhase& broad) {
   return broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge) < kManyBlocks ? 64 : 256;
 }
-constexpr double kShrinksUpTo = 0.5;        // horizon: beyond it, new boxes cost more than they spare
+constexpr double kShrinksUpTo = 0.5;        // t_max: beyond it, new boxes cost more than they spare
 
-// Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to that horizon, and the whole is
-// passed once with a horizon that shrinks further. What is reported at t is within Scene::reach of what it must keep then, unless it
-// spends its checks, so boxes that are wider by that on [0, horizon] lose none that is reported by then: the result is the minimum of
+// Limiting pair only: a sample of the blocks bounds the earliest time of impact, the boxes shrink to t_max, and the whole is
+// passed once with t_max that shrinks further. What is reported at t is within Scene::reach of what it must keep then, unless it
+// spends its checks, so boxes that are wider by that on [0, t_max] lose none that is reported by then: the result is the minimum of
 // the active set. What the sample found counts whatever the boxes say.
 //
 // Within a window: whatever the sample finds bounds the earliest contact, and the window begins there. A pair that is out of checks
 // says too little for either: whether its boxes meet by then is another matter.
-double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
+double shrink_to_t_max(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
                          Budget& budget, Limits& sampled) {
-  if (!narrow.uses_horizon()) return 1;
+  if (!narrow.uses_t_max()) return 1;
   sampled = traverse_pairs(*scene.broad, narrow, Keep::limiting, 1, budget, sampled_stride(*scene.broad)).limits;
   if (!sampled.contact) return 1;
   sampled.stored = sampled.clear = {};  // the whole finds them
@@ -34,16 +34,16 @@ double shrink_to_horizon(const Mesh& mesh, Scene& scene, const NarrowPhase& narr
   if (first.outcome == Outcome::budget) return 1;
   // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
   const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
-  const double horizon = keep == Keep::all ? latest_time(first) + options.window : limit;
-  if (horizon > kShrinksUpTo) return std::min(horizon, 1.0);
+  const double t_max = keep == Keep::all ? latest_time(first) + options.window : limit;
+  if (t_max > kShrinksUpTo) return std::min(t_max, 1.0);
   BroadPhaseInput shrunk =
       keep == Keep::all
-          ? broad_phase_input(mesh.data(), scene.motion, options, scene.reach, horizon, BoxTest::both_ends)
+          ? broad_phase_input(mesh.data(), scene.motion, options, scene.reach, t_max, BoxTest::both_ends)
           : *scene.tree;
-  shrunk.horizon = horizon;
+  shrunk.t_max = t_max;
   shrunk.test = BoxTest::both_ends;
   scene.broad->refit(shrunk);
-  return horizon;
+  return t_max;
 }
 
 // The exact times of those that can be the earliest: none of the others is before the least toi_hi.
@@ -94,10 +94,10 @@ TraversalResult find_contacts(const Mesh& mesh, Scene& scene, const Options& opt
   const NarrowPhase narrow(input);
   const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
   Limits sampled;
-  const double horizon = shrinks ? shrink_to_horizon(mesh, scene, narrow, options, keep, budget, sampled) : 1;
+  const double t_max = shrinks ? shrink_to_t_max(mesh, scene, narrow, options, keep, budget, sampled) : 1;
   TraversalBounds limits = limited;
-  if (horizon <= kShrinksUpTo) limits.whole = &*scene.tree;
-  TraversalResult traversal = traverse_pairs(*scene.broad, narrow, keep, horizon, budget, 1, limits);
+  if (t_max <= kShrinksUpTo) limits.whole = &*scene.tree;
+  TraversalResult traversal = traverse_pairs(*scene.broad, narrow, keep, t_max, budget, 1, limits);
   if (keep == Keep::limiting) traversal.limits.add(sampled);
   if (keep == Keep::all) sharpen_earliest(narrow, traversal.found);
   copy_counts(traversal, stats);

@@ -58,7 +58,7 @@ constexpr std::size_t kHeldByATask = 1024;
 
 class PairTraversal {
  public:
-  PairTraversal(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon, Budget& budget,
+  PairTraversal(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double t_max, Budget& budget,
        std::size_t stride, const TraversalBounds& bounds)
       : pairs_(pairs),
         narrow_(narrow),
@@ -66,9 +66,9 @@ class PairTraversal {
         budget_(budget),
         stride_(stride),
         bounds_(bounds),
-        first_horizon_(horizon),
-        horizon_(horizon),
-        wave_horizon_(horizon) {
+        first_t_max_(t_max),
+        t_max_(t_max),
+        wave_t_max_(t_max) {
     budget.begin_traversal(count(PairKind::vertex_face) + count(PairKind::edge_edge));
   }
 
@@ -77,7 +77,7 @@ class PairTraversal {
     if (!budget_.counts_checks()) return run(kind, 0, blocks, stats);
     for (std::size_t first = 0, wave = kFirstWave; first < blocks;) {
       budget_.look_at_checks();
-      wave_horizon_ = horizon_.load(std::memory_order_relaxed);
+      wave_t_max_ = t_max_.load(std::memory_order_relaxed);
       const std::size_t last = std::min(first + wave, blocks);
       const std::int64_t before = stats.checks;
       run(kind, first, last, stats);
@@ -107,7 +107,7 @@ class PairTraversal {
     }
     void process(const IdPair* pairs, std::size_t count) {
       const std::size_t known = results.size();
-      traversal.narrow_.process(kind, pairs, count, {traversal.first_horizon_, traversal.horizon()}, scratch, results);
+      traversal.narrow_.process(kind, pairs, count, {traversal.first_t_max_, traversal.t_max()}, scratch, results);
       if (traversal.bounds_.whole != nullptr) keep_candidates_of(*traversal.bounds_.whole, known);
       if (results.size() == known) return;
       scratch.stats.contacts += std::int64_t(results.size() - known);
@@ -146,13 +146,13 @@ class PairTraversal {
     return budget_.spent() || (keep_ == Keep::any && found_any_.load(std::memory_order_relaxed));
   }
   bool is_bounded() const { return bounds_.most < std::numeric_limits<std::size_t>::max(); }
-  double horizon() const {
-    return budget_.counts_checks() ? wave_horizon_ : horizon_.load(std::memory_order_relaxed);
+  double t_max() const {
+    return budget_.counts_checks() ? wave_t_max_ : t_max_.load(std::memory_order_relaxed);
   }
-  // The horizon is only ever an early-out: results do not depend on it.
+  // t_max is only ever an early-out: results do not depend on it.
   void shrink_to(double limit) {
-    double now = horizon_.load(std::memory_order_relaxed);
-    while (limit < now && !horizon_.compare_exchange_weak(now, limit, std::memory_order_relaxed)) {
+    double now = t_max_.load(std::memory_order_relaxed);
+    while (limit < now && !t_max_.compare_exchange_weak(now, limit, std::memory_order_relaxed)) {
     }
   }
   void shrink_to_window(const std::vector<PairResult>& results, std::size_t first) {
@@ -206,10 +206,10 @@ class PairTraversal {
   Budget& budget_;
   const std::size_t stride_;
   const TraversalBounds bounds_;
-  const double first_horizon_;
-  std::atomic<double> horizon_;
+  const double first_t_max_;
+  std::atomic<double> t_max_;
   std::atomic<bool> found_any_{false};
-  double wave_horizon_;
+  double wave_t_max_;
   std::mutex mutex_;
   Limits limits_;            // unless all are kept
   std::vector<Part> parts_;  // where all are kept
@@ -257,10 +257,10 @@ bool earlier(const FoundPair& x, const FoundPair& y) {
   return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);
 }
 
-TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double t_max,
                     Budget& budget, std::size_t stride, const TraversalBounds& bounds) {
   TraversalResult result;
-  PairTraversal traversal(pairs, narrow, keep, horizon, budget, stride, bounds);
+  PairTraversal traversal(pairs, narrow, keep, t_max, budget, stride, bounds);
   traversal.run(PairKind::vertex_face, result.vertex_face);
   traversal.run(PairKind::edge_edge, result.edge_edge);
   if (keep == Keep::all)
@@ -307,7 +307,7 @@ void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats
   if (pair.a >= 0) stats.worst = {kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
 }
 
-void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double horizon,
+void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double t_max,
                 StepResult& r) {
   note_worst(mesh, traversal, r.stats);
   if (budget.outcome() != Outcome::free) {
@@ -319,7 +319,7 @@ void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget
   const Limits& limits = traversal.limits;
   r.step = upper;
   r.toi = INFINITY;
-  if (limits.contact && limits.contact->result.step_limit <= horizon) {
+  if (limits.contact && limits.contact->result.step_limit <= t_max) {
     const PairResult& contact = limits.contact->result;
     r.toi = contact.step_limit;
     r.certainty = contact.limit_certainty;

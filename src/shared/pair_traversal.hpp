@@ -50,14 +50,14 @@ struct TraversalBounds {
   double window = std::numeric_limits<double>::infinity();
   std::size_t most = std::numeric_limits<std::size_t>::max();
   // Only pairs that are candidates of this as well are found: what is within the tolerance and yet apart may be a
-  // candidate up to a horizon, and not in the whole step.
+  // candidate up to t_max, and not in the whole step.
   const BroadPhaseInput* whole = nullptr;
 };
 
-// `horizon`: pairs certified apart beyond it may be dropped. The culls keep to it, advancement to what it shrinks to: a pair that
+// `t_max`: pairs certified apart beyond it may be dropped. The culls keep to it, advancement to what it shrinks to: a pair that
 // spends its checks far from contact is then reported, or not, for any number of threads. `stride`: only every stride-th block of pairs is
 // looked at. Ends early where the budget is spent: what is found is then true, but not all.
-TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double horizon,
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double t_max,
                     Budget& budget, std::size_t stride = 1, const TraversalBounds& bounds = {});
 
 // For steps that are stored, of pairs that each keep the share `keep` of their gap. rounding: rounding_of_distances(motion).
@@ -73,9 +73,9 @@ bool earlier(const FoundPair& x, const FoundPair& y);
 void copy_counts(const TraversalResult& traversal, Stats& stats);
 Pair to_pair(const Mesh& mesh, const FoundPair& found);
 void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats);
-// The step in [0, upper], outcome and limiting pair that follow from a traversal up to `horizon` that kept the limits: none with a spent
+// The step in [0, upper], outcome and limiting pair that follow from a traversal up to `t_max` that kept the limits: none with a spent
 // budget.
-void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double horizon,
+void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double t_max,
                 StepResult& result);
 
 }  // namespace onset

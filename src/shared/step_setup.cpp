@@ -13,12 +13,12 @@
 namespace onset {
 
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
-                                  double margin, double horizon, BoxTest test) {
+                                  double margin, double t_max, BoxTest test) {
   const double half = 0.5 * options.min_separation * (1 + 0x1p-50);
   const bool fixed = mesh.filter && mesh.filter->has_fixed();
   const double inflation =
       fixed ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
-  return {mesh, motion, inflation, horizon, test, options.kernel, half};
+  return {mesh, motion, inflation, t_max, test, options.kernel, half};
 }
 
 namespace {

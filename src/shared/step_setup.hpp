@@ -14,7 +14,7 @@ namespace onset {
 // Boxes of two primitives overlap wherever these come within min_separation + margin, thickness apart. The
 // margin changes with the motion; static primitives leave it to the others, so that their boxes can stay.
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
-                                  double margin, double horizon, BoxTest test);
+                                  double margin, double t_max, BoxTest test);
 
 struct Scene {
   // contacts: pairs of the exact motion. stored_step: also pairs that storing a position could close. candidates: the swept boxes of
@@ -25,7 +25,7 @@ struct Scene {
   std::shared_ptr<BroadPhase>
       broad;  // empty where the motion is not usable (motion.status), or no budget is left
   // The candidates of the whole step for contacts of the exact motion, and those that `broad` was made for; it may since have
-  // shrunk to a horizon.
+  // shrunk to t_max.
   std::optional<BroadPhaseInput> whole, tree;
   double rounding = 0;  // rounding_of_distances(motion), where the use asks for it
   double reach = 0;     // model length: how far beyond what it must keep a pair can be reported that has checks left

@@ -28,7 +28,7 @@ ExactBox exact_box(const BroadPhaseInput& input, const std::vector<int>& vertice
     for (int end = 0; end < 2; ++end)
       for (std::size_t k = 0; k < vertices.size(); ++k) {
         const Rational x0 = input.motion.t0(vertices[k])[a], x1 = input.motion.t1(vertices[k])[a];
-        const Rational x = end == 0 ? x0 : Rational(x0 + Rational(input.horizon) * (x1 - x0));
+        const Rational x = end == 0 ? x0 : Rational(x0 + Rational(input.t_max) * (x1 - x0));
         if (k == 0 || x - r < box.lo[end][a]) box.lo[end][a] = x - r;
         if (k == 0 || x + r > box.hi[end][a]) box.hi[end][a] = x + r;
       }
@@ -132,7 +132,7 @@ TEST_CASE("boxes without inflation are exact", "[oracle]") {
   CHECK(taking_turns > 50);
 }
 
-TEST_CASE("inflation, thickness and horizon round outward, by a few units in the last place", "[oracle]") {
+TEST_CASE("inflation, thickness and t_max round outward, by a few units in the last place", "[oracle]") {
   scenes::Random random(19);
   for (Soup& soup : small_soups()) {
     INFO(soup.name);
@@ -140,13 +140,13 @@ TEST_CASE("inflation, thickness and horizon round outward, by a few units in the
     const double size = largest_coordinate(motion);
     for (BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving})
       for (double relative : {0.0, 0.1})
-        for (double horizon : {0.0, 0.3, 1.0}) {
+        for (double t_max : {0.0, 0.3, 1.0}) {
           soup.mesh.thickness.clear();
           if (scenes::coin(random))
             for (int v = 0; v < soup.mesh.num_vertices; ++v)
               soup.mesh.thickness.push_back(size * scenes::uniform(random, 0, 0.1));
           BroadPhaseInput input{soup.mesh, motion};
-          input.test = test, input.inflation = size * relative, input.horizon = horizon;
+          input.test = test, input.inflation = size * relative, input.t_max = t_max;
           expect_definition(input, size * 0x1p-46 + 0x1p-1066);
         }
   }

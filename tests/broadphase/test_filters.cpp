@@ -192,7 +192,7 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
       BroadPhaseInput unfiltered{soup.mesh, plain}, input{mesh.data(), motion};
       unfiltered.test = input.test = test;
       unfiltered.inflation = input.inflation = round % 3 == 0 ? 0.05 : 0;
-      unfiltered.horizon = input.horizon = round % 4 == 0 ? 0.3 : 1;
+      unfiltered.t_max = input.t_max = round % 4 == 0 ? 0.3 : 1;
       for (const PairKind kind : kKinds) {
         if (kind == kEdgeFace && test != BoxTest::swept) continue;
         unfiltered.edges_against_faces = input.edges_against_faces = kind == kEdgeFace;

@@ -25,20 +25,20 @@ double coordinate(Random& random) {
 
 }  // namespace
 
-TEST_CASE("the interval at a horizon contains the exact position", "[oracle]") {
+TEST_CASE("the interval at t_max contains the exact position", "[oracle]") {
   Random random(1);
   for (int i = 0; i < 100000; ++i) {
     const double x0 = coordinate(random), x1 = scenes::coin(random) ? coordinate(random) : x0 * 1.5;
     const double h = scenes::coin(random) ? scenes::unit(random) : std::ldexp(scenes::unit(random), -40);
     const Rational exact = Rational(x0) + Rational(h) * (Rational(x1) - Rational(x0));
-    const Interval found = at_horizon(x0, x1, h);
+    const Interval found = at_t_max(x0, x1, h);
     const double slack = std::max(std::fabs(x0), std::fabs(x1)) * 0x1p-48 + 0x1p-1068;
     if (!(Rational(found.lo) <= exact && exact <= Rational(found.hi) && found.hi - found.lo <= slack))
       FAIL(std::hexfloat << x0 << " to " << x1 << " at " << h << ": " << found.lo << " " << found.hi);
     if (!(std::min(x0, x1) <= found.lo && found.hi <= std::max(x0, x1))) FAIL("beyond the ends");
   }
-  CHECK(at_horizon(0.1, 0.3, 1).lo == 0.3);
-  CHECK(at_horizon(0.1, 0.3, 1).hi == 0.3);
+  CHECK(at_t_max(0.1, 0.3, 1).lo == 0.3);
+  CHECK(at_t_max(0.1, 0.3, 1).hi == 0.3);
 }
 
 TEST_CASE("widening by an inflation rounds outward, and not at all without one", "[oracle]") {

@@ -110,18 +110,18 @@ TEST_CASE("every method agrees with brute force on vertices of different thickne
       soup.mesh.thickness.push_back(scenes::coin(random) ? 0 : size * scenes::uniform(random, 0, 0.1));
     expect_agreement_of_all_tests(soup.name + ", thick", {soup.mesh, motion});
     BroadPhaseInput both{soup.mesh, motion};
-    both.inflation = size * 0.01, both.horizon = 0.3;
-    expect_agreement_of_all_tests(soup.name + ", thick, inflated, horizon", both);
+    both.inflation = size * 0.01, both.t_max = 0.3;
+    expect_agreement_of_all_tests(soup.name + ", thick, inflated, t_max", both);
   }
 }
 
-TEST_CASE("every method agrees with brute force up to a horizon", "[property]") {
+TEST_CASE("every method agrees with brute force up to t_max", "[property]") {
   for (const Soup& soup : hard_soups()) {
     const Motion motion = soup.motion();
-    for (double horizon : {0.0, 1e-12, 0.25, 1 - 0x1p-53}) {
+    for (double t_max : {0.0, 1e-12, 0.25, 1 - 0x1p-53}) {
       BroadPhaseInput input{soup.mesh, motion};
-      input.horizon = horizon;
-      expect_agreement_of_all_tests(soup.name + ", horizon", input);
+      input.t_max = t_max;
+      expect_agreement_of_all_tests(soup.name + ", t_max", input);
     }
   }
 }

@@ -93,7 +93,7 @@ TEST_CASE("a refit finds what a new broad phase finds", "[property]") {
       BroadPhaseInput changed{soup.mesh, motion};
       changed.kernel = m.kernel;
       changed.test = BoxTest(round % 3);  // motion boxes need more memory
-      changed.horizon = round < 3 ? 1 : 0.25;
+      changed.t_max = round < 3 ? 1 : 0.25;
       changed.inflation = round == 4 ? 0.02 : 0;
       reused->refit(changed);
       const auto fresh = make_broad_phase(m.method, changed);

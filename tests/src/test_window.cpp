@@ -46,7 +46,7 @@ TEST_CASE("a window gives the rows of the full set within it, bit for bit", "[pr
   int rows = 0, dropped = 0;
   for (unsigned seed = 1; seed <= 24; ++seed) {
     auto [soup, mesh, o] = tests::soup(seed, 20 + int(seed) * 20);
-    if (seed % 5 == 0) o.max_checks = 50;  // too few for a horizon
+    if (seed % 5 == 0) o.max_checks = 50;  // too few for t_max
     const ActiveSet full = construct_active_set(mesh, soup.x_t0, soup.x_t1, o);
     CHECK(std::isinf(full.complete_until));
     for (const double window : {0.0, 1e-6, 0.01, 0.1, 0.5, 1.0, 7.0})

@@ -114,7 +114,7 @@ TEST_CASE("windows and memory limits leave out no contact before complete_until"
   CHECK(10 * cut > oracle::fuzz(120));
 }
 
-TEST_CASE("few checks, horizons and windows give the same bytes for any number of threads and either kernel",
+TEST_CASE("few checks, values of t_max and windows give the same bytes for any number of threads and either kernel",
           "[determinism]") {
   Random random(oracle::fuzz_seed() * 1000 + 62);
   for (int i = 0; i < oracle::fuzz(24); ++i) {

@@ -53,7 +53,7 @@ class KernelBatch {
     p.count = count();
     p.scale = scale_;
     p.tolerance = p.reach = tolerance;
-    p.horizon = p.cull_horizon = 1;
+    p.t_max = p.cull_t_max = 1;
     p.maximum_norm = maximum_norm;
     p.max_checks = max_checks;
     return p;

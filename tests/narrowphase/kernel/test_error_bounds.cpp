@@ -23,7 +23,7 @@ constexpr double kU = 0x1p-53;
 struct Input {
   Query query;
   ValuesWanted wanted;
-  double horizon = 1;
+  double t_max = 1;
   bool diagonal = false;  // every axis as the first one: what one of them errs by, all do, in the same sense
 };
 
@@ -89,16 +89,16 @@ Input make_input(PairKind kind, Random& random) {
   return in;
 }
 
-// The motion cut short at a horizon below 1; some of the horizons are rounded to float by all that can be.
+// The motion cut short at t_max below 1; some of t_max are rounded to float by all that can be.
 // Half of the time what is left of it is the motion of make_input, and the far end, thrown out along it, is
-// as much larger as the horizon is short; in a half of those the corners change sides on the way, which makes
+// as much larger as t_max is short; in a half of those the corners change sides on the way, which makes
 // both terms of the cut corner larger than itself.
 Input make_cut_input(PairKind kind, Random& random) {
-  constexpr double kHorizons[] = {
+  constexpr double kTMaxes[] = {
       1 - 0x1p-26, 0.5 * (1 + 0x1p-24), 0.7, 1.0 / 3, 0.125 * (1 + 0x1p-24), 0.1, 1e-3, 1e-6};
   Input in = make_input(kind, random);
-  in.horizon = scenes::coin(random) ? kHorizons[scenes::integer(random, 0, 7)] : scenes::unit(random);
-  in.horizon = std::max(in.horizon, 0x1p-40);
+  in.t_max = scenes::coin(random) ? kTMaxes[scenes::integer(random, 0, 7)] : scenes::unit(random);
+  in.t_max = std::max(in.t_max, 0x1p-40);
   in.diagonal = scenes::coin(random);
   if (in.diagonal) {
     set_direction(in.wanted.w, {1, 1, 1});
@@ -112,7 +112,7 @@ Input make_cut_input(PairKind kind, Random& random) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (changes_sides) in.query.t1[i] = scenes::times(-1, in.query.t0[i]);
     const Point way = scenes::minus(in.query.t1[i], in.query.t0[i]);
-    in.query.t1[i] = scenes::plus(in.query.t0[i], scenes::times(1 / in.horizon, way));
+    in.query.t1[i] = scenes::plus(in.query.t0[i], scenes::times(1 / in.t_max, way));
   }
   return in;
 }
@@ -144,7 +144,7 @@ Input change_input(Input in, Random& random) {
         in.wanted.u = std::min(1.0, nudge(in.wanted.u));
         if (in.query.kind == PairKind::vertex_face) in.wanted.v = std::min(in.wanted.v, 1 - in.wanted.u);
     }
-  if (in.horizon < 1) in.horizon = std::min(1 - 0x1p-53, nudge(in.horizon));
+  if (in.t_max < 1) in.t_max = std::min(1 - 0x1p-53, nudge(in.t_max));
   keep_diagonal(in);
   return in;
 }
@@ -243,13 +243,13 @@ double witness_ratio(Compute values, const Input& in) {  // 10u R per axis
   }
   return r;
 }
-// The coefficients in single precision on [0, horizon], against the motion of `pair`.
-double coefficient_error(const KernelValues& v, const ExactPair& pair, double horizon, double bound) {
+// The coefficients in single precision on [0, t_max], against the motion of `pair`.
+double coefficient_error(const KernelValues& v, const ExactPair& pair, double t_max, double bound) {
   const RationalVector w{Rational(v.wf[0]), Rational(v.wf[1]), Rational(v.wf[2])};
   const RationalVector wb{Rational(v.wbf[0]), Rational(v.wbf[1]), Rational(v.wbf[2])};
   double r = 0;
   for (int k = 0; k < pair.corners; ++k) {
-    const RationalVector &c0 = pair.c[0][k], c1 = pair.corner(k, Rational(horizon)),
+    const RationalVector &c0 = pair.c[0][k], c1 = pair.corner(k, Rational(t_max)),
                          middle = between(c0, c1, Rational(0.5));
     const Rational b[5] = {dot(w, c0), (dot(w, c1) + dot(wb, c0)) / 2, dot(wb, c1),
                            (dot(w, middle) + dot(wb, c0)) / 2, dot(wb, middle)};
@@ -267,18 +267,18 @@ struct FloatCase {
     batch.add(in.query, 0);
     if (rounded) batch.round();
     pairs = batch.pairs(1);
-    pairs.cull_horizon = in.horizon;
+    pairs.cull_t_max = in.t_max;
     v = values(in.query.kind == PairKind::edge_edge, pairs, 0, in.wanted);
   }
 };
 
 double float_ratio(Compute values, const Input& in) {
   const FloatCase f(values, in, false);
-  return coefficient_error(f.v, ExactPair(in.query, 1 / f.pairs.scale), in.horizon, f.v.f_bound);
+  return coefficient_error(f.v, ExactPair(in.query, 1 / f.pairs.scale), in.t_max, f.v.f_bound);
 }
 double rounded_ratio(Compute values, const Input& in) {
   const FloatCase f(values, in, true);
-  return coefficient_error(f.v, ExactPair(in.query, 1 / f.pairs.scale), in.horizon, f.v.f_bound);
+  return coefficient_error(f.v, ExactPair(in.query, 1 / f.pairs.scale), in.t_max, f.v.f_bound);
 }
 
 // Against the motion of the rounded positions: the share of the bound that is not theirs.
@@ -295,7 +295,7 @@ double arithmetic_ratio(Compute values, const Input& in) {
   const Rational theirs = Rational(*std::max_element(of_vertex, of_vertex + second)) +
                           Rational(*std::max_element(of_vertex + second, of_vertex + 4));
   const double bound = static_cast<double>(Rational(f.v.f_bound) - theirs);
-  return coefficient_error(f.v, ExactPair(rounded, 1), in.horizon, bound);
+  return coefficient_error(f.v, ExactPair(rounded, 1), in.t_max, bound);
 }
 
 int steps() { return std::max(500, fuzz(500)); }

@@ -1,4 +1,4 @@
-// The step's shrunk horizon: bit for bit the minimum of the active set.
+// The step's shrunk t_max: bit for bit the minimum of the active set.
 #include <cmath>
 #include <algorithm>
 #include <onset/onset.hpp>
