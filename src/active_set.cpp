@@ -44,7 +44,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     set.outcome = scene.motion.status;
     set.vertex = scene.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
-    TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, Keep::all, budget, set.stats) : TraversalResult{};
+    TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, Collect::all, budget, set.stats) : TraversalResult{};
     const double begun = scene.clock.seconds();
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);

@@ -122,7 +122,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   in_arena(h.options.threads, [&] {
     const Clock clock;
     Budget budget(h.options);
-    const TraversalResult traversal = traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Keep::limiting, upper, budget);
+    const TraversalResult traversal = traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Collect::first, upper, budget);
     copy_counts(traversal, r.result.stats);
     limit_step(h.mesh, traversal, budget, upper, upper, r.result);
     r.result.stats.seconds_narrow = r.result.stats.seconds_total = clock.seconds();

@@ -13,15 +13,15 @@ namespace onset {
 namespace {
 
 StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                         const Options& options, Keep keep) {
+                         const Options& options, Collect collect) {
   StepResult r;
   Budget budget(options);
-  const Scene::Use use = keep == Keep::limiting ? Scene::Use::stored_step : Scene::Use::contacts;
+  const Scene::Use use = collect == Collect::first ? Scene::Use::stored_step : Scene::Use::contacts;
   Scene scene(mesh, x_t0, x_t1, options, use, r.stats, budget);
   r.outcome = scene.motion.status;
   r.vertex = scene.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
-  const TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, keep, budget, r.stats) : TraversalResult{};
+  const TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, collect, budget, r.stats) : TraversalResult{};
   limit_step(mesh, traversal, budget, 1, 1, r);
   r.rounding = reported_rounding(scene.rounding);
   r.stats.seconds_total = scene.clock.seconds();
@@ -57,7 +57,7 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_
                                            const Options& options) {
   check(options);
   StepResult r;
-  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::limiting); });
+  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Collect::first); });
   return r;
 }
 
@@ -65,7 +65,7 @@ bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Posit
                             const Options& options) {
   check(options);
   StepResult r;
-  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Keep::any); });
+  in_arena(options.threads, [&] { r = step_in_arena(mesh, x_t0, x_t1, options, Collect::any); });
   return r.outcome == Outcome::free && r.toi > 1;
 }
 

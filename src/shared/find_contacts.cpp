@@ -24,20 +24,20 @@ constexpr double kShrinksUpTo = 0.5;        // t_max: beyond it, new boxes cost 
 //
 // Within a window: whatever the sample finds bounds the earliest contact, and the window begins there. A pair that is out of checks
 // says too little for either: whether its boxes meet by then is another matter.
-double shrink_to_t_max(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Keep keep,
+double shrink_to_t_max(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow, const Options& options, Collect collect,
                          Budget& budget, Limits& sampled) {
   if (!narrow.uses_t_max()) return 1;
-  sampled = traverse_pairs(*scene.broad, narrow, Keep::limiting, 1, budget, sampled_stride(*scene.broad)).limits;
+  sampled = traverse_pairs(*scene.broad, narrow, Collect::first, 1, budget, sampled_stride(*scene.broad)).limits;
   if (!sampled.contact) return 1;
   sampled.stored = sampled.clear = {};  // the whole finds them
   const PairResult& first = sampled.contact->result;
   if (first.outcome == Outcome::budget) return 1;
   // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
   const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
-  const double t_max = keep == Keep::all ? latest_time(first) + options.window : limit;
+  const double t_max = collect == Collect::all ? latest_time(first) + options.window : limit;
   if (t_max > kShrinksUpTo) return std::min(t_max, 1.0);
   BroadPhaseInput shrunk =
-      keep == Keep::all
+      collect == Collect::all
           ? broad_phase_input(mesh.data(), scene.motion, options, scene.reach, t_max, BoxTest::both_ends)
           : *scene.tree;
   shrunk.t_max = t_max;
@@ -76,30 +76,30 @@ std::size_t most_contacts(const Options& options) {
   return std::size_t(options.memory_limit / kBytesAContact);
 }
 
-TraversalResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget, Stats& stats) {
+TraversalResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options, Collect collect, Budget& budget, Stats& stats) {
   const double begun = scene.clock.seconds();
-  const TraversalBounds limited = keep == Keep::all ? bounds(options) : TraversalBounds{};
+  const TraversalBounds limited = collect == Collect::all ? bounds(options) : TraversalBounds{};
   NarrowPhaseInput input{mesh.data(), scene.motion, stats.tolerance, stats.extent, options};
   // All times in one order are exact, or none is.
   input.exact_times = options.certainty == CertaintyLevel::exact &&
-                      (keep != Keep::all || limited.most < std::numeric_limits<std::size_t>::max());
+                      (collect != Collect::all || limited.most < std::numeric_limits<std::size_t>::max());
   // A pass over all vertices in every call is worth it unless most of them are static.
   input.for_many = 2 * mesh.data().filter->static_ids.size() <= std::size_t(mesh.data().num_vertices);
   const PairPredicate contacts{&scene, is_candidate};
-  if (keep == Keep::limiting) {
+  if (collect == Collect::first) {
     input.stored = true;
     input.rounding = scene.rounding;
     input.contacts = &contacts;
   }
   const NarrowPhase narrow(input);
-  const bool shrinks = keep == Keep::limiting || (keep == Keep::all && options.window < 1);
+  const bool shrinks = collect == Collect::first || (collect == Collect::all && options.window < 1);
   Limits sampled;
-  const double t_max = shrinks ? shrink_to_t_max(mesh, scene, narrow, options, keep, budget, sampled) : 1;
+  const double t_max = shrinks ? shrink_to_t_max(mesh, scene, narrow, options, collect, budget, sampled) : 1;
   TraversalBounds limits = limited;
   if (t_max <= kShrinksUpTo) limits.whole = &*scene.tree;
-  TraversalResult traversal = traverse_pairs(*scene.broad, narrow, keep, t_max, budget, 1, limits);
-  if (keep == Keep::limiting) traversal.limits.add(sampled);
-  if (keep == Keep::all) sharpen_earliest(narrow, traversal.found);
+  TraversalResult traversal = traverse_pairs(*scene.broad, narrow, collect, t_max, budget, 1, limits);
+  if (collect == Collect::first) traversal.limits.add(sampled);
+  if (collect == Collect::all) sharpen_earliest(narrow, traversal.found);
   copy_counts(traversal, stats);
   stats.seconds_narrow = scene.clock.seconds() - begun;
   stats.seconds_total = scene.clock.seconds();

@@ -11,6 +11,6 @@ std::size_t most_contacts(const Options& options);
 
 // Every candidate of `scene`, whose boxes it may shrink, or those that can still matter: limiting, or all within a window. Fills the
 // counts and times of `stats`.
-TraversalResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options, Keep keep, Budget& budget, Stats& stats);
+TraversalResult find_contacts(const Mesh& mesh, Scene& scene, const Options& options, Collect collect, Budget& budget, Stats& stats);
 
 }  // namespace onset

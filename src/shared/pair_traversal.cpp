@@ -58,11 +58,11 @@ constexpr std::size_t kHeldByATask = 1024;
 
 class PairTraversal {
  public:
-  PairTraversal(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double t_max, Budget& budget,
+  PairTraversal(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max, Budget& budget,
        std::size_t stride, const TraversalBounds& bounds)
       : pairs_(pairs),
         narrow_(narrow),
-        keep_(keep),
+        collect_(collect),
         budget_(budget),
         stride_(stride),
         bounds_(bounds),
@@ -112,7 +112,7 @@ class PairTraversal {
       if (results.size() == known) return;
       scratch.stats.contacts += std::int64_t(results.size() - known);
       for (std::size_t i = known; i < results.size(); ++i) scratch.stats.note_outcome(results[i]);
-      if (traversal.keep_ == Keep::all)
+      if (traversal.collect_ == Collect::all)
         traversal.shrink_to_window(results, known);
       else
         traversal.take_limits(*this);
@@ -143,7 +143,7 @@ class PairTraversal {
   }
 
   bool ended() const {
-    return budget_.spent() || (keep_ == Keep::any && found_any_.load(std::memory_order_relaxed));
+    return budget_.spent() || (collect_ == Collect::any && found_any_.load(std::memory_order_relaxed));
   }
   bool is_bounded() const { return bounds_.most < std::numeric_limits<std::size_t>::max(); }
   double t_max() const {
@@ -172,7 +172,7 @@ class PairTraversal {
     const std::lock_guard<std::mutex> lock(mutex_);
     task.stats.add(task.scratch.stats);
     task.scratch.stats = {};
-    if (keep_ == Keep::all)
+    if (collect_ == Collect::all)
       merge_all(task);
     else
       limits_.add(task.limits);
@@ -202,7 +202,7 @@ class PairTraversal {
 
   const PairSource& pairs_;
   const NarrowPhase& narrow_;
-  const Keep keep_;
+  const Collect collect_;
   Budget& budget_;
   const std::size_t stride_;
   const TraversalBounds bounds_;
@@ -257,13 +257,13 @@ bool earlier(const FoundPair& x, const FoundPair& y) {
   return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);
 }
 
-TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double t_max,
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max,
                     Budget& budget, std::size_t stride, const TraversalBounds& bounds) {
   TraversalResult result;
-  PairTraversal traversal(pairs, narrow, keep, t_max, budget, stride, bounds);
+  PairTraversal traversal(pairs, narrow, collect, t_max, budget, stride, bounds);
   traversal.run(PairKind::vertex_face, result.vertex_face);
   traversal.run(PairKind::edge_edge, result.edge_edge);
-  if (keep == Keep::all)
+  if (collect == Collect::all)
     result.found = traversal.take();
   else
     result.limits = traversal.limits();

@@ -34,17 +34,17 @@ struct Limits {
   void add(const Limits& other);
 };
 
-// What a traversal keeps. all: every pair that is not free. limiting: the limits only, and pairs certified beyond the first contact
-// so far are dropped on the way. any: as limiting, and the traversal ends at the first contact.
-enum class Keep { all, limiting, any };
+// What a traversal collects. all: every pair that is not free. first: the limits only, and pairs certified beyond the first contact
+// so far are dropped on the way. any: as first, and the traversal ends at the first contact.
+enum class Collect { all, first, any };
 
 struct TraversalResult {
   std::vector<FoundPair> found;  // all: sorted by `before`
-  Limits limits;                 // limiting, any
+  Limits limits;                 // first, any
   NarrowPhaseStats vertex_face, edge_edge;
 };
 
-// What else bounds a traversal. `window` and `most` are for those that keep all: pairs later than the earliest toi +
+// What else bounds a traversal. `window` and `most` are for those that collect all: pairs later than the earliest toi +
 // `window`, and than the earliest `most`, may be dropped on the way (the caller cuts off the rest).
 struct TraversalBounds {
   double window = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ struct TraversalBounds {
 // `t_max`: pairs certified apart beyond it may be dropped. The culls keep to it, advancement to what it shrinks to: a pair that
 // spends its checks far from contact is then reported, or not, for any number of threads. `stride`: only every stride-th block of pairs is
 // looked at. Ends early where the budget is spent: what is found is then true, but not all.
-TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Keep keep, double t_max,
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max,
                     Budget& budget, std::size_t stride = 1, const TraversalBounds& bounds = {});
 
 // For steps that are stored, of pairs that each keep the share `keep` of their gap. rounding: rounding_of_distances(motion).

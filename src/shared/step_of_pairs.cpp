@@ -23,7 +23,7 @@ StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList&
                     r.stats);
   const double rounding = rounding_of_distances(motion);
   const NarrowPhase narrow(stored_step_input(data, motion, r.stats, options, keep, rounding));
-  const TraversalResult traversal = traverse_pairs(pairs, narrow, Keep::limiting, 1, budget);
+  const TraversalResult traversal = traverse_pairs(pairs, narrow, Collect::first, 1, budget);
   copy_counts(traversal, r.stats);
   limit_step(mesh, traversal, budget, upper, 1, r);
   r.rounding = reported_rounding(rounding);
