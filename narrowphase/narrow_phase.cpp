@@ -48,9 +48,9 @@ void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
   for (std::size_t k = 0; k < histogram.size(); ++k) histogram[k] += o.histogram[k];
   achieved_tolerance = std::max(achieved_tolerance, o.achieved_tolerance);
   const auto order = [](const NarrowPhaseStats& s) {
-    return std::tuple(s.least_kept, s.closest.a, s.closest.b);
+    return std::tuple(s.least_share, s.closest.a, s.closest.b);
   };
-  if (order(o) < order(*this)) least_kept = o.least_kept, closest = o.closest;
+  if (order(o) < order(*this)) least_share = o.least_share, closest = o.closest;
 }
 
 void NarrowPhaseStats::note_checks(IdPair pair, std::int64_t n) {
@@ -117,7 +117,7 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           inclusion_only ? in_.tolerance : kSharpness * in_.tolerance,
           inclusion_only ? 2 : kSharpest,
           reported_within(in_.tolerance, in_.extent),
-          in_.keep,
+          in_.gap_share,
           in_.stored ? kStoring : 0,
           in_.stored ? kStoredRoundings * in_.rounding : 0,
           uses_t_max() ? std::min(t_max.culls, 1.0) : 1,
@@ -127,7 +127,7 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
 }
 
 KernelPairs NarrowPhase::without_storing(KernelPairs pairs, double t_max) {
-  pairs.keep = pairs.storing = pairs.cull_beyond = 0;
+  pairs.gap_share = pairs.storing = pairs.cull_beyond = 0;
   pairs.t_max = pairs.cull_t_max = t_max;
   return pairs;
 }

@@ -30,10 +30,10 @@ struct NarrowPhaseInput {
   const Options& options;
   bool exact_times = false;  // CertaintyLevel::exact: toi and toi_hi of every contact are adjacent doubles
   bool for_many = false;     // pairs: worth a pass over all vertices first
-  // Steps whose end is stored in doubles: results have a stored_limit. `keep`: share of each pair's initial gap beyond its
+  // Steps whose end is stored in doubles: results have a stored_limit. `gap_share`: share of each pair's initial gap beyond its
   // separation that it must keep as well, in [0, 1). `rounding`: rounding_of_distances(motion).
   bool stored = false;
-  double keep = 0, rounding = 0;
+  double gap_share = 0, rounding = 0;
   const PairPredicate* contacts = nullptr;  // others have no toi; null: all may have
 };
 
@@ -63,7 +63,7 @@ struct NarrowPhaseStats {
   double achieved_tolerance = 0;
   // The least share of its gap that a pair is sure to keep once it is stored, and the pair; 0 where its step is 0. 1 where
   // all keep what was asked for.
-  double least_kept = 1;
+  double least_share = 1;
   IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
   void note_checks(IdPair pair, std::int64_t checks);  // >= 1

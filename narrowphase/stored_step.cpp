@@ -41,9 +41,9 @@ void NarrowPhase::decide(const Case& c, NarrowPhaseStats& stats, std::vector<Pai
 }
 
 void NarrowPhase::note_kept(const Case& c, double share, NarrowPhaseStats& stats) const {
-  if (share >= in_.keep * (1 - 0x1p-20)) return;
+  if (share >= in_.gap_share * (1 - 0x1p-20)) return;
   NarrowPhaseStats here;
-  here.least_kept = share;
+  here.least_share = share;
   here.closest = c.pair;
   stats.add(here);
 }
@@ -65,7 +65,7 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   KernelResult& found = limit.found;
   // No contact, or a time of contact known exactly: then rounding alone limits the step, and the tolerance has no part in it.
   // So it is not where a share of the gap is kept.
-  const bool sharper = in_.keep == 0 && (contact.empty() || times_are_exact());
+  const bool sharper = in_.gap_share == 0 && (contact.empty() || times_are_exact());
   if (sharper && found.verdict == Verdict::contact && found.t > 0) {
     found.delta = kLeastTolerance * corners_of(c).rho;
     found.verdict = found.checks < c.input.max_checks ? Verdict::stalled : Verdict::budget;
@@ -76,7 +76,7 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   // A share that would be lost is a contact with what is kept.
   const bool spent = found.verdict == Verdict::budget && found.t > 0 && found.checks >= c.input.max_checks;
   const Outcome outcome = spent                            ? Outcome::budget
-                          : in_.keep > 0 && found.t > 0 ? Outcome::contact
+                          : in_.gap_share > 0 && found.t > 0 ? Outcome::contact
                                                         : Outcome::below_rounding;
   PairResult r{c.pair, INFINITY, INFINITY, 0, outcome};
   if (!contact.empty())
@@ -109,8 +109,8 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
   const Corners corners = corners_of(c);
   const Bounds start = bounds_at(c, corners, 0);
   const double d = c.separation() / corners.unit, rounding = storing_rounding(c, corners), gap = start.upper - d;
-  const double apart = start.lower - d, wanted = in_.keep * gap + kStoredRoundings * rounding;
-  const double kept = std::min({wanted, 0.5 * (1 + in_.keep) * apart, apart - 2 * kStartNoise * corners.rho});
+  const double apart = start.lower - d, wanted = in_.gap_share * gap + kStoredRoundings * rounding;
+  const double kept = std::min({wanted, 0.5 * (1 + in_.gap_share) * apart, apart - 2 * kStartNoise * corners.rho});
   if (kept > rounding) {
     note_kept(c, (kept - rounding) / gap, stats);
     const StoredLimit limit{0, limit_from(c, corners, start, 0, kept, stats)};

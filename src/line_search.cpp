@@ -39,14 +39,14 @@ void check_step(const char* name, double step) {
 struct LineSearch::Impl {
   Mesh mesh;
   Options options;
-  double keep, d_hat, rounding = 0;
+  double gap_share, d_hat, rounding = 0;
   std::unique_ptr<Scene> scene;  // its motion; the tree goes once the pairs are held, and stays where they are too many
   std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
   StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
   PairList pairs, near;         // that may limit a step; that may come within d_hat on the way
 
   NarrowPhaseInput input() const {
-    return stored_step_input(mesh.data(), scene->motion, start.stats, options, keep, rounding);
+    return stored_step_input(mesh.data(), scene->motion, start.stats, options, gap_share, rounding);
   }
   bool fill(Budget& budget);
   const PairSource& source(const PairList& list) const {
@@ -82,11 +82,11 @@ std::vector<double> LineSearch::Impl::at(double step) const {
 }
 
 LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const Options& options,
-                       double keep, double d_hat)
-    : impl_(new Impl{mesh, options, keep, d_hat, 0, {}, {}, {}, {}, {}}) {
+                       double gap_share, double d_hat)
+    : impl_(new Impl{mesh, options, gap_share, d_hat, 0, {}, {}, {}, {}, {}}) {
   check(options);
   check_d_hat(d_hat, true);
-  check_keep(keep);
+  check_gap_share(gap_share);
   const std::vector<double> x_t1 = sum(x_t0, dx);
   Impl& h = *impl_;
   for (std::ptrdiff_t i = 0; d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
@@ -116,7 +116,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   const Impl& h = *impl_;
   LineSearchStep r;
   r.result = h.start;
-  r.keep = h.keep;
+  r.gap_share = h.gap_share;
   r.rounding = h.start.rounding;
   if (h.start.outcome != Outcome::free) return r;
   in_arena(h.options.threads, [&] {
@@ -128,9 +128,9 @@ LineSearchStep LineSearch::largest_step(double upper) const {
     r.result.stats.seconds_narrow = r.result.stats.seconds_total = clock.seconds();
     for (const auto& [kind, stats] :
          {std::pair{PairKind::vertex_face, traversal.vertex_face}, {PairKind::edge_edge, traversal.edge_edge}}) {
-      if (stats.least_kept >= r.keep) continue;
-      r.keep = std::max(stats.least_kept, 0.0);
-      r.keep_reduced = true;
+      if (stats.least_share >= r.gap_share) continue;
+      r.gap_share = std::max(stats.least_share, 0.0);
+      r.gap_share_reduced = true;
       r.closest = to_pair(h.mesh, {kind, {stats.closest, 0, 0, 0, Outcome::free}});
     }
     r.assured = r.result.outcome != Outcome::below_rounding || r.result.step > 0;

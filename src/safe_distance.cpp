@@ -41,13 +41,13 @@ double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0
 
 // What the lemma gives without a look at any pair, each keeping a share of its gap: distances fall by the rest of it at most. dx is
 // off by a rounding, which safe_step's factor covers.
-double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close, double keep) {
+double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close, double gap_share) {
   std::vector<double> dx;
   for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
     for (int a = 0; a < 3; ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
   std::vector<double> r = safe_distances(mesh, x_t0, close);
-  if (keep > 0)
-    for (double& of_vertex : r) of_vertex *= (1 - keep) * (1 - 0x1p-50);
+  if (gap_share > 0)
+    for (double& of_vertex : r) of_vertex *= (1 - gap_share) * (1 - 0x1p-50);
   return safe_step(r, Positions(dx.data(), x_t0.rows()));
 }
 
@@ -110,9 +110,9 @@ double safe_step(const std::vector<double>& r, const Positions& dx) {
 }
 
 StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                                const ClosePairs& close, const Options& options, double keep) {
+                                const ClosePairs& close, const Options& options, double gap_share) {
   check(options);
-  check_keep(keep);
+  check_gap_share(gap_share);
   check_close(mesh, close);
   StepResult r;
   in_arena(options.threads, [&] {
@@ -122,8 +122,8 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     PairList listed;
     for (const ClosePair& p : close) listed.of(p.kind).push_back({p.a, p.b});
     const double moved = most_moved(motion), rounding = rounding_of_distances(motion);
-    const double bound = time_for_others((1 - keep) * close.d_hat - 2 * rounding, moved);
-    r = step_of_pairs(mesh, motion, listed, options, keep, budget, std::min(bound, 1.0));
+    const double bound = time_for_others((1 - gap_share) * close.d_hat - 2 * rounding, moved);
+    r = step_of_pairs(mesh, motion, listed, options, gap_share, budget, std::min(bound, 1.0));
     if (motion.status != Outcome::free) return;
     if (const int torn = torn_vertex(mesh, x_t0, x_t1); torn >= 0) {
       r.step = r.shortest = r.toi = 0;
@@ -131,7 +131,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
       r.limiting = Pair{};
       r.vertex = torn;
     } else if (budget.outcome() != Outcome::free) {
-      r.step = step_by_gaps(mesh, x_t0, x_t1, close, keep);
+      r.step = step_by_gaps(mesh, x_t0, x_t1, close, gap_share);
       if (r.step == 1) r.outcome = Outcome::free;
       r.toi = r.step == 1 ? INFINITY : r.step;
     } else {

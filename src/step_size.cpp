@@ -71,9 +71,9 @@ bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Posit
 
 StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& candidates,
                                            const Positions& x_t0, const Positions& x_t1,
-                                           const Options& options, double keep) {
+                                           const Options& options, double gap_share) {
   check(options);
-  check_keep(keep);
+  check_gap_share(gap_share);
   PairList pairs;
   pairs.of(PairKind::vertex_face) = checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face);
   pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge);
@@ -81,7 +81,7 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
   in_arena(options.threads, [&] {
     const Clock clock;
     Budget budget(options);
-    r = step_of_pairs(mesh, make_motion(mesh.data().num_vertices, x_t0, x_t1), pairs, options, keep, budget);
+    r = step_of_pairs(mesh, make_motion(mesh.data().num_vertices, x_t0, x_t1), pairs, options, gap_share, budget);
     r.stats.seconds_total = clock.seconds();
   });
   return r;

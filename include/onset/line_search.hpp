@@ -13,11 +13,11 @@ namespace onset {
 struct LineSearchStep {
   StepResult result;  // result.step: the largest safe step
   // The share of its gap that every pair is sure to keep, once positions are rounded to stored doubles: the one
-  // asked for unless keep_reduced. A gap of less than 2 rounding / (1 - keep) may not keep it all: the share is
+  // asked for unless gap_share_reduced. A gap of less than 2 rounding / (1 - gap_share) may not keep it all: the share is
   // cut, and `closest` names the pair. assured: false where a gap has no room for rounding at all, so that the
   // step is 0 (Outcome::below_rounding); raise min_separation.
-  double keep = 0;
-  bool keep_reduced = false, assured = true;
+  double gap_share = 0;
+  bool gap_share_reduced = false, assured = true;
   Pair closest;
   double rounding = 0;  // StepResult::rounding
 };
@@ -30,14 +30,14 @@ class ONSET_API LineSearch {
   // dx: #V x 3 (or flat), model length: x_t1 = x_t0 + dx is formed here. Throws as
   // compute_collision_free_stepsize.
   //
-  // keep in [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its
+  // gap_share in [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its
   // separation), or all but what is beyond the larger of d_hat and the tolerance, so that steps along one
   // direction approach a contact as a sequence t_i < t_i+1 and never reach it, and from every result the next
-  // step is > 0 (paper, section 7.2: d = p d_i, with p = keep).
+  // step is > 0 (paper, section 7.2: d = p d_i, with p = gap_share).
   //
   // d_hat > 0 (model length): close_pairs can be asked for; 0: it cannot, and nothing is held for it.
   LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const Options& options = {},
-             double keep = 0.2, double d_hat = 0);
+             double gap_share = 0.2, double d_hat = 0);
   ~LineSearch();
   LineSearch(LineSearch&&) noexcept;
   LineSearch& operator=(LineSearch&&) noexcept;

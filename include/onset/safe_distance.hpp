@@ -39,9 +39,9 @@ ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 // welds (Mesh::set_weld) and copies part in this motion, the step is 0 and `vertex` one of them. Throws as
 // safe_distances.
 //
-// keep in [0, 1): every pair, listed or not, keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as in
+// gap_share in [0, 1): every pair, listed or not, keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as in
 // LineSearch, so that the next step is > 0.
 ONSET_API StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                                          const ClosePairs& close, const Options& options = {}, double keep = 0.2);
+                                          const ClosePairs& close, const Options& options = {}, double gap_share = 0.2);
 
 }  // namespace onset

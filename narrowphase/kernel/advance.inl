@@ -156,8 +156,8 @@ inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4
       for (int a = 0; a < 3; ++a) largest = max(abs(p.p[end][i][a]), largest);
   const V gap = dist - s.d;
   const V rounding = (V::all(pairs.storing) * largest + V::all(pairs.storing > 0 ? kStoredLeast : 0)) / s.unit;
-  const V wanted = V::all(pairs.keep) * gap + V::all(kStoredRoundings) * rounding;
-  const V most = V::all(0.5 * (1 + pairs.keep)) * apart;
+  const V wanted = V::all(pairs.gap_share) * gap + V::all(kStoredRoundings) * rounding;
+  const V most = V::all(0.5 * (1 + pairs.gap_share)) * apart;
   unsure = unsure | (gap - apart > V::all(0x1p-10) * apart) | (most < wanted);
   return select(apart > zero<V>(), min(most, wanted), zero<V>());
 }
@@ -173,7 +173,7 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 5u) for the Euclidean norm.
   V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
   auto unsure = apart <= zero<V>();
-  if (pairs.keep > 0 || pairs.storing > 0) {
+  if (pairs.gap_share > 0 || pairs.storing > 0) {
     const V kept = kept_of(pairs, rows, s, dist, apart, unsure);
     s.d = s.d + kept;
     apart = apart - kept;

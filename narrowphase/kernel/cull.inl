@@ -202,7 +202,7 @@ inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
   if (!refined && pairs.rounded != nullptr) rounded_corners(pairs, rows, s);
   else float_corners(pairs, rows, s);
   V d = s.d;
-  if (pairs.keep > 0) d = d + V::all(static_cast<float>(pairs.keep) * (1 + 0x1p-20f)) * initial_gap(s.c[0], s.error);
+  if (pairs.gap_share > 0) d = d + V::all(static_cast<float>(pairs.gap_share) * (1 + 0x1p-20f)) * initial_gap(s.c[0], s.error);
   V w0[3], w1[3];
   cheap_direction(s.c[0], w0);
   cheap_direction(s.c[1], w1);

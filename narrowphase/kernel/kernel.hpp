@@ -18,7 +18,7 @@ struct KernelPairs {
   // Beyond d a pair must also keep this share of its initial gap, in [0, 1), and, where storing > 0, kStoredRoundings times the
   // bound storing * (its largest coordinate) + kStoredLeast, model length; but never more than half of what the share leaves. Then
   // also a pair whose gap is too small for that, or not known well, is `initial`.
-  double keep, storing;
+  double gap_share, storing;
   double cull_beyond;   // model length: kStoredRoundings times that bound for all pairs, for the culls; 0 where storing is 0
   double cull_t_max;  // pairs certified apart until then by the culls, or
   double t_max;       // beyond this time by advancement, may be dropped as free
@@ -43,7 +43,7 @@ struct KernelResult {
   double t;         // certified apart on [0, t]
   double distance;  // scaled upper bound of the distance at t
   double delta;     // scaled tolerance used: contact means distance - d <= delta
-  double separation;  // scaled d, with what `keep` and `storing` add
+  double separation;  // scaled d, with what `gap_share` and `storing` add
   double unit;
   long long checks;
   Verdict verdict;

@@ -32,8 +32,8 @@ void check(const Options& o) {
   if (o.threads < 0) reject("threads", o.threads, "at least 1, or 0 for the caller's arena");
 }
 
-void check_keep(double keep) {
-  if (!(keep >= 0 && keep < 1)) reject("keep", keep, "in [0, 1)");
+void check_gap_share(double gap_share) {
+  if (!(gap_share >= 0 && gap_share < 1)) reject("gap_share", gap_share, "in [0, 1)");
 }
 
 double largest_separation(const MeshData& mesh, const Options& options) {

@@ -10,7 +10,7 @@ namespace onset {
 // Throws std::invalid_argument naming the option and its value.
 void check(const Options& options);
 // The same for the share of a gap to keep.
-void check_keep(double keep);
+void check_gap_share(double gap_share);
 
 // The distance, rounded up, that the thickest pair must keep.
 double largest_separation(const MeshData& mesh, const Options& options);

@@ -271,10 +271,10 @@ TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narro
 }
 
 NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Stats& stats,
-                                   const Options& options, double keep, double rounding) {
+                                   const Options& options, double gap_share, double rounding) {
   NarrowPhaseInput r{mesh, motion, stats.tolerance, stats.extent, options};
   r.stored = true;
-  r.keep = keep;
+  r.gap_share = gap_share;
   r.rounding = rounding;
   r.exact_times = options.certainty == CertaintyLevel::exact;
   return r;

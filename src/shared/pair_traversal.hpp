@@ -60,9 +60,9 @@ struct TraversalBounds {
 TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max,
                     Budget& budget, std::size_t stride = 1, const TraversalBounds& bounds = {});
 
-// For steps that are stored, of pairs that each keep the share `keep` of their gap. rounding: rounding_of_distances(motion).
+// For steps that are stored, of pairs that each keep the share `gap_share` of their gap. rounding: rounding_of_distances(motion).
 NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Stats& stats,
-                                   const Options& options, double keep, double rounding);
+                                   const Options& options, double gap_share, double rounding);
 
 // When a pair that is reported has surely touched, as far as is known: exact times may move a toi up to there.
 inline double latest_time(const PairResult& r) { return r.certainty == Certainty::certain ? r.toi_hi : r.toi; }

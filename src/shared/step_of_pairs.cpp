@@ -9,7 +9,7 @@
 namespace onset {
 
 StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs, const Options& options,
-                   double keep, Budget& budget, double upper) {
+                   double gap_share, Budget& budget, double upper) {
   StepResult r;
   const Clock clock;
   const MeshData& data = mesh.data();
@@ -22,7 +22,7 @@ StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList&
   describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options,
                     r.stats);
   const double rounding = rounding_of_distances(motion);
-  const NarrowPhase narrow(stored_step_input(data, motion, r.stats, options, keep, rounding));
+  const NarrowPhase narrow(stored_step_input(data, motion, r.stats, options, gap_share, rounding));
   const TraversalResult traversal = traverse_pairs(pairs, narrow, Collect::first, 1, budget);
   copy_counts(traversal, r.stats);
   limit_step(mesh, traversal, budget, upper, 1, r);

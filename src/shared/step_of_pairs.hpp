@@ -7,9 +7,9 @@
 
 namespace onset {
 
-// The largest step of these pairs, in [0, upper], each keeping the share `keep` of its gap, stored in doubles, and the statistics. A motion
+// The largest step of these pairs, in [0, upper], each keeping the share `gap_share` of its gap, stored in doubles, and the statistics. A motion
 // that cannot be used is an outcome.
 StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs, const Options& options,
-                   double keep, Budget& budget, double upper = 1);
+                   double gap_share, Budget& budget, double upper = 1);
 
 }  // namespace onset

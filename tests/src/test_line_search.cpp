@@ -25,18 +25,18 @@ struct TwoTriangles {
 TEST_CASE("steps along one direction approach a contact and never reach it", "[unit]") {
   TwoTriangles s;
   const Mesh mesh = s.mesh();
-  const double keep = 0.2;
+  const double gap_share = 0.2;
   Eigen::MatrixXd x = s.x;
   double gap = x(3, 2);
   for (int i = 0; i < 15; ++i) {  // down to gaps of 1e-11
-    const LineSearchStep r = LineSearch(mesh, x, s.target - x, {}, keep).largest_step();
+    const LineSearchStep r = LineSearch(mesh, x, s.target - x, {}, gap_share).largest_step();
     REQUIRE(r.result.step > 0);
     REQUIRE(r.result.outcome == Outcome::contact);
-    CHECK_FALSE(r.keep_reduced);
-    CHECK(r.keep == keep);
+    CHECK_FALSE(r.gap_share_reduced);
+    CHECK(r.gap_share == gap_share);
     x = x + r.result.step * (s.target - x);
-    CHECK(x(3, 2) >= keep * gap);          // after rounding to doubles
-    CHECK(x(3, 2) <= (keep + (1 - keep) / 4) * gap * (1 + 1e-9));  // the stop rule: a quarter of the rest
+    CHECK(x(3, 2) >= gap_share * gap);          // after rounding to doubles
+    CHECK(x(3, 2) <= (gap_share + (1 - gap_share) / 4) * gap * (1 + 1e-9));  // the stop rule: a quarter of the rest
     gap = x(3, 2);
   }
 }
@@ -45,8 +45,8 @@ TEST_CASE("a gap that rounding can close is named", "[unit]") {
   TwoTriangles s;
   s.x.col(2).tail(3).array() += 4e-15 - 0.5;
   const LineSearchStep r = LineSearch(s.mesh(), s.x, s.target - s.x).largest_step();
-  CHECK(r.keep_reduced);
-  CHECK(r.keep < 0.2);
+  CHECK(r.gap_share_reduced);
+  CHECK(r.gap_share < 0.2);
   CHECK(r.closest.a >= 0);
   CHECK(r.rounding > 0);
 }

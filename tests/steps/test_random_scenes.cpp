@@ -28,7 +28,7 @@ struct Counts {
 
 // What the mesh is told, and the calls that have these are asked.
 struct More {
-  double d_hat, keep;
+  double d_hat, gap_share;
   bool points = false, weld = false;
   std::vector<double> thickness;
 };
@@ -42,9 +42,9 @@ void check_scene(const StepScene& scene, const Options& options, const More& wha
   const oracle::Truth first = SceneTruth(asked).first();
   ++counts.scenes, counts.contacts += first.collides, counts.initial += first.toi_hi == 0;
   counts.at_the_end += first.toi_lo == 1;
-  const std::string broken = broken_promise(asked, calls, what.d_hat, what.keep);
+  const std::string broken = broken_promise(asked, calls, what.d_hat, what.gap_share);
   if (broken.empty()) return;
-  INFO(to_text(options) << ", d_hat " << what.d_hat << ", keep " << what.keep << ", points " << what.points
+  INFO(to_text(options) << ", d_hat " << what.d_hat << ", gap_share " << what.gap_share << ", points " << what.points
                         << ", weld " << what.weld << ", thick " << what.thickness.size() << ", exact "
                         << first.toi_lo << " " << first.toi_hi);
   FAIL_CHECK(broken);
@@ -62,7 +62,7 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
     const StepScene scene = make(random);
     Options options = random_options(scene, random);
     More more{some_d_hat(scene, random), kKeep, scenes::coin(random), scenes::integer(random, 0, 4) == 0, {}};
-    if (scenes::coin(random)) more.keep = scenes::coin(random) ? 0 : scenes::uniform(random, 0, 0.99);
+    if (scenes::coin(random)) more.gap_share = scenes::coin(random) ? 0 : scenes::uniform(random, 0, 0.99);
     if (scenes::integer(random, 0, 7) == 0 && options.norm == Norm::euclidean)
       options.min_separation = 0, more.thickness = random_thickness(scene, random);
     options.touching_may_pass_through = scenes::integer(random, 0, 7) == 0;

@@ -74,16 +74,16 @@ std::string broken_by_step(const Query& query, const Options& o, const Kept& kep
                                                                           : "is stored within the separation";
 }
 
-std::string broken_by_search(const Query& query, const Options& o, const Kept& kept, double keep) {
+std::string broken_by_search(const Query& query, const Options& o, const Kept& kept, double gap_share) {
   if (!kept.beyond) return {};
   const Eigen::MatrixXd x = positions(query.t0), dx = positions(query.t1) - x;
-  const LineSearchStep r = LineSearch(mesh_of(query.kind), x, dx, o, keep).largest_step();
+  const LineSearchStep r = LineSearch(mesh_of(query.kind), x, dx, o, gap_share).largest_step();
   const double gap = kept.start - o.min_separation, d = o.min_separation,
                tolerance = r.result.stats.tolerance;
-  const bool room = oracle::compare_distance(query, 0, d + 2 * r.rounding / (1 - keep), o.norm) > 0;
+  const bool room = oracle::compare_distance(query, 0, d + 2 * r.rounding / (1 - gap_share), o.norm) > 0;
   if (r.result.step == 0) return room ? "a search of 0 from a start beyond the separation" : "";
-  if (room && (r.keep_reduced || !r.assured)) return "a share cut though there is room";
-  const double left = std::min(r.keep * gap, tolerance) * (1 - 0x1p-30) - r.rounding;
+  if (room && (r.gap_share_reduced || !r.assured)) return "a share cut though there is room";
+  const double left = std::min(r.gap_share * gap, tolerance) * (1 - 0x1p-30) - r.rounding;
   Query motion = query;
   const Eigen::MatrixXd x_t1 = x + dx;
   for (std::size_t i = 0; i < 4; ++i)

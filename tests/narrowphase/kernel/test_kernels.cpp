@@ -127,7 +127,7 @@ TEST_CASE("scalar and AVX2 kernels give the same bytes for any pair", "[simd][pr
                                       scenes::integer(random, 0, 2) ? 500 : 3);
       if (scenes::coin(random)) pairs.t_max = pairs.cull_t_max = scenes::unit(random);
       if (scenes::coin(random))
-        pairs.keep = scenes::unit(random), pairs.storing = scenes::power_of_ten(random, -16, -2),
+        pairs.gap_share = scenes::unit(random), pairs.storing = scenes::power_of_ten(random, -16, -2),
         pairs.cull_beyond = kStoredRoundings * pairs.storing;
       compare_copies(batch, pairs);
     }

@@ -20,7 +20,7 @@ constexpr double kKeep = 0.2;
 
 struct CallStep {
   StepResult result;
-  double keep = 0;   // the share that every pair that is looked at keeps
+  double gap_share = 0;   // the share that every pair that is looked at keeps
   double reach = 0;  // a pair that stays farther beyond its separation than this may keep no more than this
   bool says_outcome = true;        // false: only the step is known
   std::optional<Candidates> only;  // the pairs that are looked at, where these are not all
@@ -43,11 +43,11 @@ class Calls {
   // d_hat: of the close pairs, > 0; keep: the share of all calls that have one. The adapter takes a
   // tolerance, a number of checks and a Euclidean separation.
   CallStep ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Options& options,
-               double d_hat, double keep = kKeep) const;
+               double d_hat, double gap_share = kKeep) const;
 
  private:
   CallStep search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
-                  const Options& options, double keep) const;
+                  const Options& options, double gap_share) const;
 
   Mesh mesh_;
   ipc::CollisionMesh adapter_, filtered_;

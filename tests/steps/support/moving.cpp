@@ -97,15 +97,15 @@ static bool is_looked_at(const CallStep& step, PairKind kind, int a, int b) {
 std::string share_lost(const Asked& asked, const CallStep& step) {
   std::string lost;
   const StepResult& r = step.result;
-  if (step.keep == 0 || r.step == 0) return lost;
+  if (step.gap_share == 0 || r.step == 0) return lost;
   asked.for_pairs([&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
     const Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
     const double d = asked.separation(kind, v);
     if (!lost.empty() || oracle::boxes_apart(motion, d + step.reach + 2 * r.rounding)) return;
     if (!is_looked_at(step, kind, a, b)) return;
     const double gap = oracle::distance(motion, 0, asked.options.norm).lo - d;
-    if (!(gap > 2 * r.rounding / (1 - step.keep))) return;
-    const double left = std::min(step.keep * gap, step.reach) * (1 - 0x1p-40) - r.rounding;
+    if (!(gap > 2 * r.rounding / (1 - step.gap_share))) return;
+    const double left = std::min(step.gap_share * gap, step.reach) * (1 - 0x1p-40) - r.rounding;
     const auto end = oracle::stored(oracle::Rounding::product, motion, r.step);
     if (left > 0 && !oracle::boxes_apart({kind, end, end}, d + left) &&
         oracle::compare_distance_at_rest(kind, end, d + left, asked.options.norm) < 0)

@@ -131,8 +131,8 @@ struct Safe {
 };
 
 std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Calls& calls, Call call,
-                           double d_hat, double keep, std::vector<Safe>& safe) {
-  const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat, keep);
+                           double d_hat, double gap_share, std::vector<Safe>& safe) {
+  const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat, gap_share);
   const StepResult& r = step.result;
   const Eigen::MatrixXd end = end_of(call, asked.x_t0, asked.x_t1);
   const Asked told{calls.mesh(call), asked.x_t0, end, asked.options, asked.thickness, asked.weld};
@@ -151,13 +151,13 @@ std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Ca
 
 }  // namespace
 
-std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat, double keep) {
+std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat, double gap_share) {
   const SceneTruth truth(asked);
   std::vector<Safe> safe;
   for (Call call : kCalls) {
     const bool plain = asked.options.norm == Norm::euclidean && asked.thickness.empty() && !asked.weld;
     if (Calls::is_adapter(call) && !plain) continue;
-    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, keep, safe); !broken.empty())
+    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, gap_share, safe); !broken.empty())
       return broken;
   }
   const StepResult r = compute_collision_free_stepsize(asked.mesh, asked.x_t0, asked.x_t1, asked.options);
