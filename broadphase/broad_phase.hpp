@@ -24,7 +24,7 @@ struct BroadPhaseInput {
   Kernel kernel = Kernel::automatic;
   // For primitives all of whose vertices are static, in place of `inflation`; < 0: the same. Their boxes are
   // kept with the mesh from call to call as long as this stays what it was.
-  double fixed_inflation = -1;
+  double static_inflation = -1;
   // The pairs wanted are of kEdgeFace alone, by the swept test; else of both kinds that a step has.
   bool edges_against_faces = false;
 };
@@ -50,7 +50,7 @@ class BroadPhase : public PairSource {
   // for: a broad phase that an earlier call used is then worth a refit.
   virtual bool suits(const Motion&) const { return false; }
   // Whether boxes of static primitives were made, not taken from an earlier call.
-  virtual bool made_fixed_boxes() const { return false; }
+  virtual bool made_static_boxes() const { return false; }
 };
 
 // `input.mesh` and `input.motion` must outlive the result, or its use up to the next refit.

@@ -63,7 +63,7 @@ double widest(const BroadPhaseInput& input, Primitive kind, int id, double infla
 
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id) {
   const bool alike = part_inflation(input, true) == input.inflation;
-  return motion_box(input, kind, id, part_inflation(input, !alike && is_fixed(input.mesh, kind, id)));
+  return motion_box(input, kind, id, part_inflation(input, !alike && is_static(input.mesh, kind, id)));
 }
 
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, double inflation) {
@@ -94,8 +94,8 @@ MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind) {
     std::iota(result.ids.begin(), result.ids.end(), 0);
   } else {
     const std::vector<int>&moving = filter->moving[std::size_t(kind)],
-          &fixed = filter->fixed[std::size_t(kind)];
-    std::merge(moving.begin(), moving.end(), fixed.begin(), fixed.end(), std::back_inserter(result.ids));
+          &still = filter->statics[std::size_t(kind)];
+    std::merge(moving.begin(), moving.end(), still.begin(), still.end(), std::back_inserter(result.ids));
   }
   result.boxes.resize(result.ids.size());
   parallel_ranges(result.boxes.size(), 1024, [&](std::size_t first, std::size_t last) {

@@ -17,8 +17,8 @@ struct MotionBox {
 };
 
 // By how much primitives are widened, thickness apart.
-inline double part_inflation(const BroadPhaseInput& input, bool fixed) {
-  return fixed && input.fixed_inflation >= 0 ? input.fixed_inflation : input.inflation;
+inline double part_inflation(const BroadPhaseInput& input, bool is_static) {
+  return is_static && input.static_inflation >= 0 ? input.static_inflation : input.inflation;
 }
 
 // Widened by an upper bound on `inflation` + the largest thickness of the primitive's vertices.

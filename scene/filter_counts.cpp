@@ -10,7 +10,7 @@ namespace {
 using Count = std::int64_t;
 constexpr std::size_t kMostClasses = 1024;
 
-// Primitives with the same groups, mask and fixedness, of three kinds. `kind`: 2 class + fixed.
+// Primitives with the same groups, mask and being static, of three kinds. `kind`: 2 class + static.
 struct Alike {
   int kind;
   std::array<Count, 3> count{};
@@ -18,7 +18,7 @@ struct Alike {
 using Group = std::vector<Alike>;  // of a scene, a body or a vertex; each kind once
 
 struct Tally {
-  Count masked = 0, fixed = 0, rest = 0;
+  Count masked = 0, both_static = 0, rest = 0;
 };
 
 // The combinations of group and mask that occur, and which of them go together.
@@ -58,7 +58,7 @@ class Census {
     vf->pairs = V * F, ee->pairs = E * (E - 1) / 2;
     for (const auto& [kind, plan] : {std::pair(PairKind::vertex_face, vf), {PairKind::edge_edge, ee}}) {
       const Tally t = tally(kind, scene_, scene_, true);
-      plan->masked = t.masked, plan->fixed = t.fixed;
+      plan->masked = t.masked, plan->both_static = t.both_static;
       for (const auto& [body, group] : bodies_)
         if (no_self(body)) plan->same_body += tally(kind, group, group, true).rest;
     }
@@ -121,11 +121,11 @@ class Census {
         if (!classes_.meet(a[i].kind / 2, b[j].kind / 2))
           t.masked += n;
         else
-          (a[i].kind & b[j].kind & 1 ? t.fixed : t.rest) += n;
+          (a[i].kind & b[j].kind & 1 ? t.both_static : t.rest) += n;
       }
     if (!same && kind == PairKind::vertex_face) {  // the other body's vertices against these faces
       const Tally back = tally(kind, b, a, true);
-      t.masked += back.masked, t.fixed += back.fixed, t.rest += back.rest;
+      t.masked += back.masked, t.both_static += back.both_static, t.rest += back.rest;
     }
     return t;
   }

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/spares.hpp"
+#include "base/buffer_pool.hpp"
 #include "onset/intersections.hpp"
 #include "scene/edges_of_faces.hpp"
 #include "scene/named_pairs.hpp"
@@ -97,8 +97,8 @@ int Mesh::full_vertex(std::ptrdiff_t vertex) const {
 const PairPlan& Mesh::plan() const { return data_->filter->plan; }
 
 void Mesh::release_memory() const {
-  data_->spares->clear();
-  if (data_->fixed_cache) data_->fixed_cache->clear();
+  data_->buffer_pool->clear();
+  if (data_->static_cache) data_->static_cache->clear();
 }
 
 std::array<int, 4> Mesh::full_vertices(const Pair& pair) const {
@@ -246,7 +246,7 @@ void Mesh::set_bodies(const std::vector<int>& body) {
 
 void Mesh::set_static(const std::vector<bool>& vertices) {
   check_size("static", vertices.size(), num_vertices(), "vertices");
-  change([&](MeshData& data) { data.fixed = vertices; });
+  change([&](MeshData& data) { data.is_static = vertices; });
 }
 
 void Mesh::set_rigid(const std::vector<bool>& bodies) {

@@ -10,8 +10,8 @@
 namespace onset {
 
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
-class FixedCache;        // scene/static_cache.hpp
-class Spares;            // base/spares.hpp
+class StaticCache;        // scene/static_cache.hpp
+class BufferPool;            // base/buffer_pool.hpp
 
 struct MeshData {
   int num_vertices = 0, num_points = 0;
@@ -22,7 +22,7 @@ struct MeshData {
 
   // Who may meet whom; empty where nothing was set.
   std::vector<int> body;                                               // a vertex; empty: all in body 0
-  std::vector<bool> fixed;                                             // a vertex: static
+  std::vector<bool> is_static;                                           // a vertex: static
   std::vector<bool> rigid, no_self;                                    // a body
   std::vector<std::uint32_t> group, mask;                              // a vertex
   std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;  // smaller id first, sorted, each once
@@ -34,8 +34,8 @@ struct MeshData {
   // What follows from the above, made once (finish_mesh). Null: every primitive takes part, moves, and may
   // meet all that it shares no vertex with.
   std::shared_ptr<const PrimitiveFilter> filter;
-  std::shared_ptr<FixedCache> fixed_cache;  // not null where a filter has fixed primitives
-  std::shared_ptr<Spares> spares;           // not null where there is a filter
+  std::shared_ptr<StaticCache> static_cache;  // not null where a filter has static primitives
+  std::shared_ptr<BufferPool> buffer_pool;        // not null where there is a filter
 };
 
 // The largest thickness among the vertices [first, last).

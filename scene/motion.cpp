@@ -120,7 +120,7 @@ bool same_bits(const double* a, const double* b, std::size_t count) {
 
 }  // namespace
 
-bool FixedMotion::stands_at(const std::vector<int>& ids, const Positions& p) const {
+bool StaticMotion::stands_at(const std::vector<int>& ids, const Positions& p) const {
   const std::size_t count = ids.size();
   const double* first = p.data() + ids.front() * p.row_stride();
   if (contiguous && p.row_stride() == 3 && p.col_stride() == 1) return same_bits(first, x.data(), 3 * count);
@@ -138,14 +138,14 @@ bool FixedMotion::stands_at(const std::vector<int>& ids, const Positions& p) con
   return all;
 }
 
-AlignedArray<double> FixedMotion::take(const std::array<int, 3>& axes) const {
+AlignedArray<double> StaticMotion::take(const std::array<int, 3>& axes) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (Rows& rows : kept_)
     if (rows.x.size() > 0 && rows.axes == axes) return std::exchange(rows.x, AlignedArray<double>());
   return {};
 }
 
-void FixedMotion::give_back(const std::array<int, 3>& axes, AlignedArray<double> x) const {
+void StaticMotion::give_back(const std::array<int, 3>& axes, AlignedArray<double> x) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (Rows& rows : kept_)
     if (rows.x.size() == 0) {
@@ -179,34 +179,34 @@ std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& eleme
 }
 
 // The static part of a motion just made.
-std::shared_ptr<const FixedMotion> make_fixed(const MeshData& mesh, const Motion& m) {
+std::shared_ptr<const StaticMotion> make_static_motion(const MeshData& mesh, const Motion& m) {
   const PrimitiveFilter& filter = *mesh.filter;
-  auto fixed = std::make_shared<FixedMotion>();
-  fixed->lo.fill(INFINITY), fixed->hi.fill(-INFINITY);
+  auto still = std::make_shared<StaticMotion>();
+  still->lo.fill(INFINITY), still->hi.fill(-INFINITY);
   for (int v : filter.static_ids) {
     double x[3];
     for (int a = 0; a < 3; ++a) x[m.axes[a]] = m.t0(v)[a];
     for (int a = 0; a < 3; ++a) {
-      fixed->x.push_back(x[a]), fixed->column[a].push_back(x[a]);
-      fixed->lo[a] = std::min(fixed->lo[a], x[a]), fixed->hi[a] = std::max(fixed->hi[a], x[a]);
+      still->x.push_back(x[a]), still->column[a].push_back(x[a]);
+      still->lo[a] = std::min(still->lo[a], x[a]), still->hi[a] = std::max(still->hi[a], x[a]);
     }
   }
   const std::vector<int>& ids = filter.static_ids;
-  fixed->contiguous = ids.back() - ids.front() + 1 == int(ids.size());
-  const auto edge = largest_swept(mesh.edges, &filter.fixed[std::size_t(Primitive::edge)], m);
-  const auto face = largest_swept(mesh.faces, &filter.fixed[std::size_t(Primitive::face)], m);
+  still->contiguous = ids.back() - ids.front() + 1 == int(ids.size());
+  const auto edge = largest_swept(mesh.edges, &filter.statics[std::size_t(Primitive::edge)], m);
+  const auto face = largest_swept(mesh.faces, &filter.statics[std::size_t(Primitive::face)], m);
   for (int a = 0; a < 3; ++a)
-    fixed->widest_edge[m.axes[a]] = edge[a], fixed->widest_face[m.axes[a]] = face[a];
-  return fixed;
+    still->widest_edge[m.axes[a]] = edge[a], still->widest_face[m.axes[a]] = face[a];
+  return still;
 }
 
 // The canonical axes of the scene, from the free vertices and what is known of the others; false where a
 // position is not usable.
-bool axes_around(const PrimitiveFilter& filter, const FixedMotion& fixed, const Positions& x_t0,
+bool axes_around(const PrimitiveFilter& filter, const StaticMotion& still, const Positions& x_t0,
                  const Positions& x_t1, std::array<int, 3>& axes) {
   std::array<double, 3> width{};
   for (int a = 0; a < 3; ++a) {
-    double lo = fixed.lo[a], hi = fixed.hi[a];
+    double lo = still.lo[a], hi = still.hi[a];
     for (int v : filter.free_ids)
       for (const double x : {x_t0(v, a), x_t1(v, a)}) {
         if (!(std::fabs(x) <= kMaxCoordinate)) return false;
@@ -221,15 +221,15 @@ bool axes_around(const PrimitiveFilter& filter, const FixedMotion& fixed, const 
 
 // The motion of a mesh whose static vertices are where they were; empty where they are not, or anything else
 // wants a closer look.
-Motion motion_around(const MeshData& mesh, std::shared_ptr<const FixedMotion> fixed, const Positions& x_t0,
+Motion motion_around(const MeshData& mesh, std::shared_ptr<const StaticMotion> still, const Positions& x_t0,
                      const Positions& x_t1) {
   const PrimitiveFilter& filter = *mesh.filter;
   Motion m;
-  if (!axes_around(filter, *fixed, x_t0, x_t1, m.axes)) return {};
-  if (!fixed->stands_at(filter.static_ids, x_t0) || !fixed->stands_at(filter.static_ids, x_t1)) return {};
-  m.x = fixed->take(m.axes);
-  const bool spare = m.x.size() > 0;
-  if (!spare) m.x = AlignedArray<double>(std::size_t(mesh.num_vertices) * kMotionStride);
+  if (!axes_around(filter, *still, x_t0, x_t1, m.axes)) return {};
+  if (!still->stands_at(filter.static_ids, x_t0) || !still->stands_at(filter.static_ids, x_t1)) return {};
+  m.x = still->take(m.axes);
+  const bool reused = m.x.size() > 0;
+  if (!reused) m.x = AlignedArray<double>(std::size_t(mesh.num_vertices) * kMotionStride);
   const auto fill = [&](const std::vector<int>& ids) {
     for (int v : ids) {
       double* x = m.x.data() + std::size_t(v) * kMotionStride;
@@ -238,9 +238,9 @@ Motion motion_around(const MeshData& mesh, std::shared_ptr<const FixedMotion> fi
     }
   };
   fill(filter.free_ids);
-  if (!spare) fill(filter.static_ids);
+  if (!reused) fill(filter.static_ids);
   m.num_vertices = mesh.num_vertices;
-  m.fixed = std::move(fixed);
+  m.static_part = std::move(still);
   m.rows_last = true;
   return m;
 }
@@ -259,27 +259,27 @@ void check_rows(const MeshData& mesh, const char* name, const Positions& x) {
 Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
   check_rows(mesh, "x_t0", x_t0);
   check_rows(mesh, "x_t1", x_t1);
-  const bool cached = mesh.filter && mesh.filter->has_fixed();
-  auto fixed = cached ? mesh.fixed_cache->get<FixedMotion>(FixedCache::motion) : nullptr;
-  if (fixed)
-    if (Motion m = motion_around(mesh, fixed, x_t0, x_t1); m.fixed) return m;
+  const bool cached = mesh.filter && mesh.filter->has_static();
+  auto still = cached ? mesh.static_cache->get<StaticMotion>(StaticCache::motion) : nullptr;
+  if (still)
+    if (Motion m = motion_around(mesh, still, x_t0, x_t1); m.static_part) return m;
   Motion m = make_motion(mesh.num_vertices, x_t0, x_t1);
   if (m.status != Outcome::free || !mesh.filter) return m;
-  bool same = fixed != nullptr;
+  bool same = still != nullptr;
   for (std::size_t k = 0; k < mesh.filter->static_ids.size(); ++k) {
     const int v = mesh.filter->static_ids[k];
     for (int a = 0; a < 3; ++a) {
       if (m.t0(v)[a] != m.t1(v)[a])
         throw std::invalid_argument("vertex " + std::to_string(v) + " is static, but x_t0 and x_t1 differ");
-      same = same && same_bits(&m.t0(v)[a], &fixed->x[3 * k + std::size_t(m.axes[a])], 1);
+      same = same && same_bits(&m.t0(v)[a], &still->x[3 * k + std::size_t(m.axes[a])], 1);
     }
   }
   if (!cached) return m;
   if (!same) {
-    fixed = make_fixed(mesh, m);
-    mesh.fixed_cache->put(FixedCache::motion, fixed);
+    still = make_static_motion(mesh, m);
+    mesh.static_cache->put(StaticCache::motion, still);
   }
-  m.fixed = std::move(fixed);
+  m.static_part = std::move(still);
   return m;
 }
 
@@ -334,11 +334,11 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
   const auto listed = [&](Primitive kind) { return filter ? &filter->moving[std::size_t(kind)] : nullptr; };
   auto edge = largest_swept(mesh.edges, listed(Primitive::edge), m);
   auto face = largest_swept(mesh.faces, listed(Primitive::face), m);
-  if (filter && filter->has_fixed()) {
-    const auto fixed = m.fixed ? m.fixed : make_fixed(mesh, m);
+  if (filter && filter->has_static()) {
+    const auto still = m.static_part ? m.static_part : make_static_motion(mesh, m);
     for (int a = 0; a < 3; ++a) {
-      edge[a] = std::max(edge[a], fixed->widest_edge[m.axes[a]]);
-      face[a] = std::max(face[a], fixed->widest_face[m.axes[a]]);
+      edge[a] = std::max(edge[a], still->widest_edge[m.axes[a]]);
+      face[a] = std::max(face[a], still->widest_face[m.axes[a]]);
     }
   }
   std::array<double, 3> moved{};

@@ -19,9 +19,9 @@ inline constexpr double kMaxCoordinate = 0x1p1020;  // beyond this a difference 
 // One cache line a vertex: x y z 0 at t = 0, x y z 0 at t = 1.
 inline constexpr int kMotionStride = 8;
 
-// What the steps have in common as long as static vertices stay where they are: immutable but for spare
-// memory, safe to share.
-class FixedMotion {
+// What the steps have in common as long as static vertices stay where they are: immutable but for memory
+// to use again, safe to share.
+class StaticMotion {
  public:
   std::vector<double> x;                               // x y z of each static vertex, in the order of ids
   std::array<std::vector<double>, 3> column;           // the same by column
@@ -54,9 +54,9 @@ struct Motion {
   std::array<int, 3> axes{0, 1, 2};  // axes[i]: the caller's column stored as axis i
   Outcome status = Outcome::free;    // free, non_finite or out_of_range
   int bad_vertex = -1;
-  bool rows_last = false;  // rows of static vertices are those of `fixed`, bit for bit, at both ends
-  std::shared_ptr<const FixedMotion>
-      fixed;  // null where no static primitive takes part, or status is not free
+  bool rows_last = false;  // rows of static vertices are those of `static_part`, bit for bit, at both ends
+  std::shared_ptr<const StaticMotion>
+      static_part;  // null where no static primitive takes part, or status is not free
 
   const double* t0(int v) const { return x.data() + std::size_t(v) * kMotionStride; }
   const double* t1(int v) const { return x.data() + std::size_t(v) * kMotionStride + 4; }

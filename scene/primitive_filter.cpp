@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/spares.hpp"
+#include "base/buffer_pool.hpp"
 #include "scene/filter_counts.hpp"
 #include "scene/static_cache.hpp"
 
@@ -22,7 +22,7 @@ bool needs_keys(const MeshData& m) {
   const auto any = [](const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
   };
-  return !m.group.empty() || any(m.fixed) || any(m.rigid) || any(m.no_self) || !m.excluded_bodies.empty() ||
+  return !m.group.empty() || any(m.is_static) || any(m.rigid) || any(m.no_self) || !m.excluded_bodies.empty() ||
          !m.excluded_vertices.empty() || any_excluded_pair(m);
 }
 
@@ -46,7 +46,7 @@ void make_keys(const MeshData& m, PrimitiveFilter& filter) {
       const std::size_t body = m.body.empty() ? 0 : std::size_t(m.body[std::size_t(vertices[0])]);
       const bool no_self = (!m.rigid.empty() && m.rigid[body]) || (!m.no_self.empty() && m.no_self[body]);
       PrimitiveKey key{no_self ? ~int(body) : 0, 0, 0, 0};
-      if (is_fixed(m, kind, int(id))) key.flags |= kFixedFlag;
+      if (is_static(m, kind, int(id))) key.flags |= kStaticFlag;
       if (!body_named.empty() && body_named[body]) key.flags |= kExcludedFlag;
       if (m.group.empty()) key.group = key.mask = ~0u;
       for (int k = 0; k < vertices_each(kind); ++k) {
@@ -103,20 +103,20 @@ void list_primitives(const MeshData& m, const std::array<std::vector<bool>, 3>& 
   for (const Primitive kind : kPrimitives) {
     const std::size_t k = std::size_t(kind);
     for (std::size_t id = 0; id < idle[k].size(); ++id)
-      if (!idle[k][id]) (is_fixed(m, kind, int(id)) ? filter.fixed : filter.moving)[k].push_back(int(id));
-    *plans[k] = {std::int64_t(filter.moving[k].size()), std::int64_t(filter.fixed[k].size()),
-                 std::int64_t(idle[k].size() - filter.moving[k].size() - filter.fixed[k].size())};
+      if (!idle[k][id]) (is_static(m, kind, int(id)) ? filter.statics : filter.moving)[k].push_back(int(id));
+    *plans[k] = {std::int64_t(filter.moving[k].size()), std::int64_t(filter.statics[k].size()),
+                 std::int64_t(idle[k].size() - filter.moving[k].size() - filter.statics[k].size())};
   }
 }
 
 void list_vertices(const MeshData& m, PrimitiveFilter& filter) {
-  std::vector<bool> moving(std::size_t(m.num_vertices)), fixed(std::size_t(m.num_vertices));
+  std::vector<bool> moving(std::size_t(m.num_vertices)), stays(std::size_t(m.num_vertices));
   for (const Primitive kind : kPrimitives)
     for (const auto& [ids, used] :
-         {std::pair(&filter.moving[std::size_t(kind)], &moving), {&filter.fixed[std::size_t(kind)], &fixed}})
+         {std::pair(&filter.moving[std::size_t(kind)], &moving), {&filter.statics[std::size_t(kind)], &stays}})
       for (int id : *ids)
         for (int v : primitive_vertices(m, kind, id)) (*used)[std::size_t(v)] = true;
-  filter.moving_vertices = listed(moving), filter.fixed_vertices = listed(fixed);
+  filter.moving_vertices = listed(moving), filter.static_vertices = listed(stays);
 }
 
 bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
@@ -135,10 +135,10 @@ void finish_mesh(MeshData& mesh) {
   else
     list_kinds(mesh, *filter);
   if (!filter->all) list_vertices(mesh, *filter);
-  for (std::size_t v = 0; v < mesh.fixed.size(); ++v)
-    (mesh.fixed[v] ? filter->static_ids : filter->free_ids).push_back(int(v));
-  mesh.fixed_cache = filter->has_fixed() ? std::make_shared<FixedCache>() : nullptr;
-  mesh.spares = std::make_shared<Spares>();
+  for (std::size_t v = 0; v < mesh.is_static.size(); ++v)
+    (mesh.is_static[v] ? filter->static_ids : filter->free_ids).push_back(int(v));
+  mesh.static_cache = filter->has_static() ? std::make_shared<StaticCache>() : nullptr;
+  mesh.buffer_pool = std::make_shared<BufferPool>();
   mesh.filter = std::move(filter);
 }
 

@@ -13,10 +13,10 @@ namespace onset {
 // What of a primitive decides whether it may meet another: compared in bulk.
 struct PrimitiveKey {
   int body;   // < 0: ~id of its body, which does not meet itself; 0: of no such body
-  int flags;  // kFixedFlag, kExcludedFlag
+  int flags;  // kStaticFlag, kExcludedFlag
   std::uint32_t group, mask;
 };
-inline constexpr int kFixedFlag = int(0x80000000u);  // all vertices static: the sign bit
+inline constexpr int kStaticFlag = int(0x80000000u);  // all vertices static: the sign bit
 inline constexpr int kExcludedFlag = 1;  // named in an excluded pair, itself, by a vertex or its body
 
 struct PrimitiveFilter {
@@ -25,9 +25,9 @@ struct PrimitiveFilter {
   std::array<std::vector<PrimitiveKey>, 3> keys;
   // Ids in ascending order, by Primitive. `all`: every primitive takes part and moves (the lists are empty).
   bool all = true;
-  std::array<std::vector<int>, 3> moving, fixed;
+  std::array<std::vector<int>, 3> moving, statics;
   // Vertices of the primitives that take part; a vertex may be in both.
-  std::vector<int> moving_vertices, fixed_vertices;
+  std::vector<int> moving_vertices, static_vertices;
   // All vertices, by whether they are static; empty where none is.
   std::vector<int> free_ids, static_ids;
 
@@ -35,7 +35,7 @@ struct PrimitiveFilter {
   bool compares_keys = false;
 
   bool keeps_apart() const { return !keys[0].empty() || !keys[1].empty() || !keys[2].empty(); }
-  bool has_fixed() const { return !fixed_vertices.empty(); }
+  bool has_static() const { return !static_vertices.empty(); }
 };
 
 // Sets mesh.filter from the rest, and what is kept from call to call anew.
@@ -56,10 +56,10 @@ bool excluded(const MeshData& mesh, PairKind kind, int a, int b);
 bool may_meet(const MeshData& mesh, PairKind kind, int a, int b);
 
 // Whether all vertices of a primitive are static.
-inline bool is_fixed(const MeshData& mesh, Primitive kind, int id) {
-  if (mesh.fixed.empty()) return false;
+inline bool is_static(const MeshData& mesh, Primitive kind, int id) {
+  if (mesh.is_static.empty()) return false;
   for (int v : primitive_vertices(mesh, kind, id))
-    if (!mesh.fixed[std::size_t(v)]) return false;
+    if (!mesh.is_static[std::size_t(v)]) return false;
   return true;
 }
 

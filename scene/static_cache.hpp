@@ -9,7 +9,7 @@
 namespace onset {
 
 // Each slot holds the latest immutable object put there; who took an earlier one keeps it.
-class FixedCache {
+class StaticCache {
  public:
   using Slot = std::size_t;
   static constexpr Slot motion = 0;

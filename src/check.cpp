@@ -21,10 +21,10 @@ struct Use {
   explicit Use(const MeshData& mesh) : used(std::size_t(mesh.num_vertices)), meets(used) {
     for (const Primitive kind : {Primitive::edge, Primitive::face})
       for (std::size_t id = 0; id < primitive_count(mesh, kind); ++id) {
-        const bool fixed = is_fixed(mesh, kind, int(id));
+        const bool still = is_static(mesh, kind, int(id));
         for (const int v : primitive_vertices(mesh, kind, int(id))) {
           used[std::size_t(v)] = true;
-          if (!fixed) meets[std::size_t(v)] = true;
+          if (!still) meets[std::size_t(v)] = true;
         }
       }
   }

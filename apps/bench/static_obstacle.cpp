@@ -86,7 +86,7 @@ struct Case {
     const double middle = cpu_seconds();
     const onset::ActiveSet set = onset::construct_active_set(mesh, scene.x_t0, scene.x_t1, o);
     const double end = cpu_seconds();
-    boxes_made += r.stats.made_fixed_boxes + set.stats.made_fixed_boxes;
+    boxes_made += r.stats.made_static_boxes + set.stats.made_static_boxes;
     candidates = set.stats.candidates;
     if (round == 0) return;
     step.push_back(1e3 * (middle - begin)), active.push_back(1e3 * (end - middle));

@@ -35,7 +35,7 @@ std::string words(const char* name, const onset::KindPlan& plan, const char* nee
                               : std::string("dropped: no pair may meet");
   text += format(" of %lld; left out:", number(plan.pairs));
   const std::pair<const char*, std::int64_t> reasons[] = {{"masked", plan.masked},
-                                                          {"static", plan.fixed},
+                                                          {"static", plan.both_static},
                                                           {"same body", plan.same_body},
                                                           {"adjacent", plan.adjacent},
                                                           {"excluded", plan.excluded}};
@@ -47,7 +47,7 @@ std::string words(const char* name, const onset::KindPlan& plan, const char* nee
 
 std::string words(const char* name, const onset::PrimitivePlan& plan) {
   return format("%-11s %lld moving, %lld static, %lld dropped\n", name, static_cast<long long>(plan.moving),
-                static_cast<long long>(plan.fixed), static_cast<long long>(plan.dropped));
+                static_cast<long long>(plan.statics), static_cast<long long>(plan.dropped));
 }
 
 void report(const Scene& scene, const Inputs& inputs) {

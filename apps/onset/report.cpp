@@ -23,14 +23,14 @@ Json kind_json(const onset::KindPlan& p) {
           {"may_meet", p.may_meet()},
           {"left_out",
            {{"masked", p.masked},
-            {"static", p.fixed},
+            {"static", p.both_static},
             {"same_body", p.same_body},
             {"adjacent", p.adjacent},
             {"excluded", p.excluded}}}};
 }
 
 Json primitive_json(const onset::PrimitivePlan& p) {
-  return {{"moving", p.moving}, {"static", p.fixed}, {"dropped", p.dropped}};
+  return {{"moving", p.moving}, {"static", p.statics}, {"dropped", p.dropped}};
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Json to_json(const onset::Stats& s) {
           {"extent", s.extent},
           {"error_bound", s.error_bound},
           {"plan", to_json(s.plan)},
-          {"made_fixed_boxes", s.made_fixed_boxes},
+          {"made_fixed_boxes", s.made_static_boxes},
           {"threads", s.threads},
           {"kernel", s.kernel},
           {"broad_phase", s.broad_phase}};

@@ -18,10 +18,10 @@ class Bvh final : public BroadPhase {
     const MeshData& mesh = input.mesh;
     const PrimitiveFilter* filter = mesh.filter.get();
     const bool all = !filter || filter->all;
-    const bool alone = !filter || !filter->has_fixed();
+    const bool alone = !filter || !filter->has_static();
     finite_ = input.motion.status == Outcome::free;
-    if (!alone && finite_) fixed_ = fixed_trees(input, made_fixed_);
-    const FloatMap map = fixed_ ? fixed_->map : FloatMap(input.motion);
+    if (!alone && finite_) static_ = static_trees(input, made_static_);
+    const FloatMap map = static_ ? static_->map : FloatMap(input.motion);
     const auto listed = [&](const std::vector<int>& ids) { return IdList{ids.data(), ids.size()}; };
     order_ = make_vertex_order(
         input.motion, map,
@@ -39,7 +39,7 @@ class Bvh final : public BroadPhase {
   }
 
   const char* name() const override { return "bvh"; }
-  bool made_fixed_boxes() const override { return made_fixed_; }
+  bool made_static_boxes() const override { return made_static_; }
 
   bool suits(const Motion& motion) const override {
     return roughness(order_, motion) <= kMostRoughened * roughness_;
@@ -47,12 +47,12 @@ class Bvh final : public BroadPhase {
 
   void refit(const BroadPhaseInput& input) override {
     finite_ = input.motion.status == Outcome::free;
-    if (finite_ && input.mesh.filter && input.mesh.filter->has_fixed()) {
+    if (finite_ && input.mesh.filter && input.mesh.filter->has_static()) {
       bool made = false;
-      fixed_ = fixed_trees(input, made);
-      made_fixed_ = made;
+      static_ = static_trees(input, made);
+      made_static_ = made;
     }
-    fit(input, fixed_ ? fixed_->map : FloatMap(input.motion));
+    fit(input, static_ ? static_->map : FloatMap(input.motion));
   }
 
   std::size_t blocks(PairKind kind) const override {
@@ -126,10 +126,10 @@ class Bvh final : public BroadPhase {
     if (!finite_) return;
     const std::size_t a = std::size_t(first_primitive(kind)), b = std::size_t(second_primitive(kind));
     add(couples, *trees_[a], *trees_[b]);
-    if (!fixed_) return;
+    if (!static_) return;
     const bool motion = input_->test != BoxTest::swept;
-    if (!trees_[a]->apart(*fixed_->trees[b], motion)) add(couples, *trees_[a], *fixed_->trees[b]);
-    if (a != b && !fixed_->trees[a]->apart(*trees_[b], motion)) add(couples, *fixed_->trees[a], *trees_[b]);
+    if (!trees_[a]->apart(*static_->trees[b], motion)) add(couples, *trees_[a], *static_->trees[b]);
+    if (a != b && !static_->trees[a]->apart(*trees_[b], motion)) add(couples, *static_->trees[a], *trees_[b]);
   }
   static void add(std::vector<Couple>& couples, const BoxTree& query, const BoxTree& other) {
     if (query.units() == 0 || other.units() == 0) return;
@@ -140,10 +140,10 @@ class Bvh final : public BroadPhase {
 
   VertexOrder order_;
   double roughness_ = 0;  // of the order, when it was made
-  bool finite_ = false, made_fixed_ = false;
+  bool finite_ = false, made_static_ = false;
   std::optional<BroadPhaseInput> input_;
   std::array<std::optional<BoxTree>, 3> trees_;
-  std::shared_ptr<const FixedTrees> fixed_;
+  std::shared_ptr<const StaticTrees> static_;
   std::array<std::vector<Couple>, 3> couples_;
 };
 

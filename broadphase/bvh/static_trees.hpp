@@ -8,10 +8,10 @@
 namespace onset {
 
 // Immutable once made. What is compared with it must have gone through the same map.
-struct FixedTrees {
-  FixedTrees(const BroadPhaseInput& input, double inflation);
+struct StaticTrees {
+  StaticTrees(const BroadPhaseInput& input, double inflation);
 
-  std::shared_ptr<const FixedMotion> motion;  // the positions and axes that it was made for
+  std::shared_ptr<const StaticMotion> motion;  // the positions and axes that it was made for
   std::array<int, 3> axes;
   double inflation;
   FloatMap map;
@@ -22,6 +22,6 @@ struct FixedTrees {
 
 // Those of the mesh where they fit `input`, else new ones, which the mesh then keeps: `made` tells. A set of
 // its own for each box test and order of axes.
-std::shared_ptr<const FixedTrees> fixed_trees(const BroadPhaseInput& input, bool& made);
+std::shared_ptr<const StaticTrees> static_trees(const BroadPhaseInput& input, bool& made);
 
 }  // namespace onset

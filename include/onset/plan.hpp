@@ -10,16 +10,16 @@ struct KindPlan {
   std::int64_t pairs = 0;  // vertex-face: #V #F; edge-edge: #E (#E - 1) / 2, with Mesh::set_points among #E
   // Left out, each pair under the first reason that holds:
   std::int64_t masked = 0;     // groups and masks (Mesh::set_groups); see PairPlan for very many of them
-  std::int64_t fixed = 0;      // both primitives are static
+  std::int64_t both_static = 0;  // both primitives are static
   std::int64_t same_body = 0;  // both in one body that is rigid or does not collide with itself
   std::int64_t adjacent = 0;   // they share a vertex
   std::int64_t excluded = 0;   // named by Mesh::set_excluded_bodies, set_excluded_vertices
-  std::int64_t may_meet() const { return pairs - masked - fixed - same_body - adjacent - excluded; }
+  std::int64_t may_meet() const { return pairs - masked - both_static - same_body - adjacent - excluded; }
 };
 
 // Primitives of one kind. What the rules let meet nothing, shared vertices apart, is dropped: it gets no box.
 struct PrimitivePlan {
-  std::int64_t moving = 0, fixed = 0;  // that take part; fixed: all vertices are static
+  std::int64_t moving = 0, statics = 0;  // that take part; statics: all vertices are static
   std::int64_t dropped = 0;
 };
 

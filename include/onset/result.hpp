@@ -81,7 +81,7 @@ struct Stats {
   std::array<double, 3>
       error_bound{};  // per axis: bound on the rounding error of a corner anywhere in the scene
   PairPlan plan;                  // what the mesh leaves out of every step
-  bool made_fixed_boxes = false;  // boxes of static primitives were made in this call, not taken from an
+  bool made_static_boxes = false;  // boxes of static primitives were made in this call, not taken from an
                                   // earlier one
   int threads = 0;
   const char* kernel = "";

@@ -5,7 +5,7 @@
 
 #include "base/dispatch.hpp"
 #include "base/parallel.hpp"
-#include "base/spares.hpp"
+#include "base/buffer_pool.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
@@ -15,9 +15,9 @@ namespace onset {
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test) {
   const double half = 0.5 * options.min_separation * (1 + 0x1p-50);
-  const bool fixed = mesh.filter && mesh.filter->has_fixed();
+  const bool has_static = mesh.filter && mesh.filter->has_static();
   const double inflation =
-      fixed ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
+      has_static ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
   return {mesh, motion, inflation, t_max, test, options.kernel, half};
 }
 
@@ -25,19 +25,19 @@ namespace {
 
 // Only trees and grids are worth keeping: swept and motion boxes in slots of their own.
 bool is_kept(BroadPhaseMethod method) { return method != BroadPhaseMethod::brute; }
-Spares::Slot slot_of(BroadPhaseMethod method, BoxTest test) {
-  return 2 * Spares::Slot(method == BroadPhaseMethod::hash) + Spares::Slot(test == BoxTest::swept);
+BufferPool::Slot slot_of(BroadPhaseMethod method, BoxTest test) {
+  return 2 * BufferPool::Slot(method == BroadPhaseMethod::hash) + BufferPool::Slot(test == BoxTest::swept);
 }
 
 // The one that an earlier call left, where its order will do. Under a budget of checks what is found depends
 // on the order: it must not depend on earlier calls.
 std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const BroadPhaseInput& input,
                                              const Budget& budget) {
-  if (input.mesh.spares && is_kept(options.broad_phase) && !budget.counts_checks()) {
-    auto spare = input.mesh.spares->take<BroadPhase>(slot_of(options.broad_phase, input.test));
-    if (spare && spare->suits(input.motion)) {
-      spare->refit(input);
-      return spare;
+  if (input.mesh.buffer_pool && is_kept(options.broad_phase) && !budget.counts_checks()) {
+    auto used = input.mesh.buffer_pool->take<BroadPhase>(slot_of(options.broad_phase, input.test));
+    if (used && used->suits(input.motion)) {
+      used->refit(input);
+      return used;
     }
   }
   return make_broad_phase(options.broad_phase, input);
@@ -46,13 +46,13 @@ std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const Broad
 }  // namespace
 
 void Scene::give_back_broad() {
-  if (broad && spares_) spares_->give_back(slot_, std::move(broad));
+  if (broad && pool_) pool_->give_back(slot_, std::move(broad));
   broad.reset();
 }
 
 Scene::~Scene() {
   give_back_broad();
-  if (motion.rows_last) motion.fixed->give_back(motion.axes, std::move(motion.x));
+  if (motion.rows_last) motion.static_part->give_back(motion.axes, std::move(motion.x));
 }
 
 void Scene::widen(double by) { tree->inflation = (tree->inflation + std::max(by, 0.0)) * (1 + 0x1p-50); }
@@ -75,8 +75,8 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
   const double margin = test != BoxTest::swept && widened ? reach : 0;
   whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
   tree.emplace(*whole);
-  const bool fixed = data.filter && data.filter->has_fixed();
-  const double share = fixed ? 1 : 0.5;  // boxes that stay fixed are not widened: the others take all of it
+  const bool has_static = data.filter && data.filter->has_static();
+  const double share = has_static ? 1 : 0.5;  // boxes that are static are not widened: the others take all of it
   if (use != Use::contacts) rounding = rounding_of_distances(motion);
   if (use == Use::stored_step) widen(share * (reach + kStoredRoundings * rounding - margin));
   if (use == Use::candidates) widen(share * rounding);
@@ -85,10 +85,10 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
         std::max(tree->inflation, share * euclidean_reach(data, options, std::max(d_hat, reach), rounding));
   if (budget.spent()) return;
   broad = take_broad_phase(options, *tree, budget);
-  if (is_kept(options.broad_phase)) spares_ = data.spares;
+  if (is_kept(options.broad_phase)) pool_ = data.buffer_pool;
   slot_ = slot_of(options.broad_phase, test);
   stats.broad_phase = broad->name();
-  stats.made_fixed_boxes = broad->made_fixed_boxes();
+  stats.made_static_boxes = broad->made_static_boxes();
   stats.seconds_broad = clock.seconds();
 }
 

@@ -6,7 +6,7 @@ namespace onset {
 
 // Leaves the rows of static vertices to the next call on the mesh.
 Rest::~Rest() {
-  if (motion.rows_last) motion.fixed->give_back(motion.axes, std::move(motion.x));
+  if (motion.rows_last) motion.static_part->give_back(motion.axes, std::move(motion.x));
 }
 
 void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& budget) {

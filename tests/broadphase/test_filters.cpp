@@ -244,7 +244,7 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
       CAPTURE(round, int(kind));
       CHECK(plan.pairs == pairs);
       CHECK(plan.masked == counts[masked]);
-      CHECK(plan.fixed == counts[fixed]);
+      CHECK(plan.both_static == counts[fixed]);
       CHECK(plan.same_body == counts[same_body]);
       CHECK(plan.adjacent == counts[adjacent]);
       CHECK(plan.excluded == counts[by_name]);
@@ -256,8 +256,8 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
       const auto& marks = busy[std::size_t(p)];
       const std::int64_t needed = std::count(marks.begin(), marks.end(), true);
       const PrimitivePlan& plan = *plans[std::size_t(p)];
-      CHECK(plan.moving + plan.fixed >= needed);
-      CHECK(plan.moving + plan.fixed + plan.dropped == std::int64_t(marks.size()));
+      CHECK(plan.moving + plan.statics >= needed);
+      CHECK(plan.moving + plan.statics + plan.dropped == std::int64_t(marks.size()));
     }
   }
 }

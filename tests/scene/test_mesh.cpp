@@ -229,12 +229,12 @@ TEST_CASE("static vertices give the same answers and are boxed once", "[property
         o.broad_phase = method;
         const ActiveSet found = construct_active_set(fixed, scene.x_t0, scene.x_t1, o);
         CHECK(same_answer(found, expected));
-        CHECK(found.stats.made_fixed_boxes == (seed == 1 && method == BroadPhaseMethod::bvh));
+        CHECK(found.stats.made_static_boxes == (seed == 1 && method == BroadPhaseMethod::bvh));
       }
       o.broad_phase = BroadPhaseMethod::automatic;
       const StepResult step = compute_collision_free_stepsize(fixed, scene.x_t0, scene.x_t1, o);
       CHECK(step.step == compute_collision_free_stepsize(plain, scene.x_t0, scene.x_t1, o).step);
-      CHECK(!step.stats.made_fixed_boxes);
+      CHECK(!step.stats.made_static_boxes);
       const LineSearch search(fixed, scene.x_t0, scene.x_t1 - scene.x_t0, o);
       const LineSearch usual(plain, scene.x_t0, scene.x_t1 - scene.x_t0, o);
       CHECK(search.largest_step().result.step == usual.largest_step().result.step);
@@ -254,12 +254,12 @@ TEST_CASE("static vertices found elsewhere are boxed again, and must not move in
     CHECK(same_answer(set, construct_active_set(plain, s.x_t0, s.x_t1)));
     return set;
   };
-  CHECK(ask(scene).stats.made_fixed_boxes);
-  CHECK(!ask(scene).stats.made_fixed_boxes);
+  CHECK(ask(scene).stats.made_static_boxes);
+  CHECK(!ask(scene).stats.made_static_boxes);
   Scene lower = scene;  // out of reach, then back
   lower.x_t0.bottomRows(8).col(2).array() -= 3, lower.x_t1.bottomRows(8).col(2).array() -= 3;
   const ActiveSet missed = ask(lower);
-  CHECK(missed.stats.made_fixed_boxes);
+  CHECK(missed.stats.made_static_boxes);
   CHECK(missed.size() == 0);
   CHECK(ask(scene).size() > 0);
   Scene wrong = scene;

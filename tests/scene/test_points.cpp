@@ -288,7 +288,7 @@ TEST_CASE("the plan counts points as edges, with and without rules", "[property]
     if (rules == 0) CHECK(plan.edge_edge.adjacent == 8);  // three a triangle, and two chains of two wires
     CHECK(plan.edge_edge.may_meet() == all.counts.edge_edge);
     CHECK(plan.vertex_face.may_meet() == all.counts.vertex_face);
-    CHECK(plan.edges.moving + plan.edges.fixed + plan.edges.dropped == 18);
+    CHECK(plan.edges.moving + plan.edges.statics + plan.edges.dropped == 18);
   }
 }
 

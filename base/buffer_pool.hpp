@@ -10,7 +10,7 @@
 namespace onset {
 
 // Each slot holds at most one object that nobody uses: who takes it has it alone.
-class Spares {
+class BufferPool {
  public:
   using Slot = std::size_t;
   static constexpr Slot kSlots = 4;
