@@ -11,13 +11,13 @@ using Count = std::int64_t;
 constexpr std::size_t kMostClasses = 1024;
 
 // Primitives with the same groups, mask and being static, of three kinds. `kind`: 2 class + static.
-struct Alike {
+struct EqualPrimitives {
   int kind;
   std::array<Count, 3> count{};
 };
-using Group = std::vector<Alike>;  // of a scene, a body or a vertex; each kind once
+using Group = std::vector<EqualPrimitives>;  // of a scene, a body or a vertex; each kind once
 
-struct Tally {
+struct Sums {
   Count masked = 0, both_static = 0, rest = 0;
 };
 
@@ -46,21 +46,21 @@ class Classes {
   bool blind_ = false;
 };
 
-class Census {
+class FilterCounter {
  public:
-  Census(const MeshData& mesh, PrimitiveFilter& filter)
+  FilterCounter(const MeshData& mesh, PrimitiveFilter& filter)
       : mesh_(mesh), filter_(filter), classes_(filter.keys) {}
 
   void run(std::array<std::vector<bool>, 3>& idle) {
     count_all();
-    KindPlan *vf = &filter_.plan.vertex_face, *ee = &filter_.plan.edge_edge;
+    PairFilterCounts *vf = &filter_.counts.vertex_face, *ee = &filter_.counts.edge_edge;
     const Count V = mesh_.num_vertices, E = Count(mesh_.edges.size()), F = Count(mesh_.faces.size());
     vf->pairs = V * F, ee->pairs = E * (E - 1) / 2;
-    for (const auto& [kind, plan] : {std::pair(PairKind::vertex_face, vf), {PairKind::edge_edge, ee}}) {
-      const Tally t = tally(kind, scene_, scene_, true);
-      plan->masked = t.masked, plan->both_static = t.both_static;
+    for (const auto& [kind, counts] : {std::pair(PairKind::vertex_face, vf), {PairKind::edge_edge, ee}}) {
+      const Sums t = count(kind, scene_, scene_, true);
+      counts->masked = t.masked, counts->both_static = t.both_static;
       for (const auto& [body, group] : bodies_)
-        if (no_self(body)) plan->same_body += tally(kind, group, group, true).rest;
+        if (no_self(body)) counts->same_body += count(kind, group, group, true).rest;
     }
     vf->adjacent = adjacent_vertex_face(), ee->adjacent = adjacent_edge_edge();
     count_excluded(*vf, *ee);
@@ -85,8 +85,8 @@ class Census {
 
   static void add(Group& group, int kind, Primitive p, Count n = 1) {
     auto place =
-        std::lower_bound(group.begin(), group.end(), kind, [](const Alike& a, int k) { return a.kind < k; });
-    if (place == group.end() || place->kind != kind) place = group.insert(place, Alike{kind, {}});
+        std::lower_bound(group.begin(), group.end(), kind, [](const EqualPrimitives& a, int k) { return a.kind < k; });
+    if (place == group.end() || place->kind != kind) place = group.insert(place, EqualPrimitives{kind, {}});
     place->count[std::size_t(p)] += n;
   }
 
@@ -106,10 +106,10 @@ class Census {
   }
 
   // Pairs between two groups; within one where `same`, which are unordered for edges.
-  Tally tally(PairKind kind, const Group& a, const Group& b, bool same) const {
+  Sums count(PairKind kind, const Group& a, const Group& b, bool same) const {
     const std::size_t first = std::size_t(first_primitive(kind)),
                       second = std::size_t(second_primitive(kind));
-    Tally t;
+    Sums t;
     for (std::size_t i = 0; i < a.size(); ++i)
       for (std::size_t j = 0; j < b.size(); ++j) {
         Count n = a[i].count[first] * b[j].count[second];
@@ -124,7 +124,7 @@ class Census {
           (a[i].kind & b[j].kind & 1 ? t.both_static : t.rest) += n;
       }
     if (!same && kind == PairKind::vertex_face) {  // the other body's vertices against these faces
-      const Tally back = tally(kind, b, a, true);
+      const Sums back = count(kind, b, a, true);
       t.masked += back.masked, t.both_static += back.both_static, t.rest += back.rest;
     }
     return t;
@@ -161,7 +161,7 @@ class Census {
         for (int v : mesh_.edges[e])
           add(at[std::size_t(v)], kind_of(Primitive::edge, int(e)), Primitive::edge);
       }
-      for (const Group& group : at) n += tally(PairKind::edge_edge, group, group, true).rest;
+      for (const Group& group : at) n += count(PairKind::edge_edge, group, group, true).rest;
     }
     return n - repeated_edges();
   }
@@ -184,17 +184,17 @@ class Census {
       for (last = first; last < sorted.size() && sorted[last].first == sorted[first].first; ++last)
         add(copies, kind_of(Primitive::edge, sorted[last].second), Primitive::edge);
       if (!has_keys() || !no_self(body_of(Primitive::edge, sorted[first].second)))
-        n += tally(PairKind::edge_edge, copies, copies, true).rest;
+        n += count(PairKind::edge_edge, copies, copies, true).rest;
     }
     return n;
   }
 
-  void count_excluded(KindPlan& vf, KindPlan& ee) const {
+  void count_excluded(PairFilterCounts& vf, PairFilterCounts& ee) const {
     for (const auto& [b, c] : mesh_.excluded_bodies) {
       const auto x = bodies_.find(b), y = bodies_.find(c);
       if (x == bodies_.end() || y == bodies_.end()) continue;
-      vf.excluded += tally(PairKind::vertex_face, x->second, y->second, false).rest;
-      ee.excluded += tally(PairKind::edge_edge, x->second, y->second, false).rest;
+      vf.excluded += count(PairKind::vertex_face, x->second, y->second, false).rest;
+      ee.excluded += count(PairKind::edge_edge, x->second, y->second, false).rest;
     }
     std::map<int, std::array<std::vector<int>, 2>> around;  // edges and faces at the vertices named
     for (const auto& pair : mesh_.excluded_vertices) around[pair[0]], around[pair[1]];
@@ -232,7 +232,7 @@ class Census {
 
   Count partners(int kind, Primitive of, const Group& group) const {
     Count n = 0;
-    for (const Alike& other : group)
+    for (const EqualPrimitives& other : group)
       if (meet(kind, other.kind)) n += other.count[std::size_t(of)];
     return n;
   }
@@ -247,7 +247,7 @@ class Census {
     idle.assign(primitive_count(mesh_, p), true);
     for (const Primitive other : others(p)) {
       std::map<int, Count> in_scene;
-      for (const Alike& a : scene_) in_scene[a.kind] = partners(a.kind, other, scene_);
+      for (const EqualPrimitives& a : scene_) in_scene[a.kind] = partners(a.kind, other, scene_);
       for (std::size_t id = 0; id < idle.size(); ++id) {
         const int kind = kind_of(p, int(id)), body = body_of(p, int(id));
         const bool alone = no_self(body);
@@ -266,8 +266,8 @@ class Census {
 
 }  // namespace
 
-void take_census(const MeshData& mesh, PrimitiveFilter& filter, std::array<std::vector<bool>, 3>& idle) {
-  Census(mesh, filter).run(idle);
+void count_filtered(const MeshData& mesh, PrimitiveFilter& filter, std::array<std::vector<bool>, 3>& idle) {
+  FilterCounter(mesh, filter).run(idle);
 }
 
 }  // namespace onset

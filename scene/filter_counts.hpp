@@ -7,10 +7,10 @@
 
 namespace onset {
 
-// Fills the counts of pairs in filter.plan and, where the filter keeps any apart, marks in `idle` (by Primitive,
+// Fills the counts of pairs in filter.counts and, where the filter keeps any apart, marks in `idle` (by Primitive,
 // by id) the primitives that can meet nothing. Time:
 // linear in the mesh, plus the square of the number of different combinations of group and mask (at most
 // 1,024 are told apart).
-void take_census(const MeshData& mesh, PrimitiveFilter& filter, std::array<std::vector<bool>, 3>& idle);
+void count_filtered(const MeshData& mesh, PrimitiveFilter& filter, std::array<std::vector<bool>, 3>& idle);
 
 }  // namespace onset

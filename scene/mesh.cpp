@@ -94,7 +94,7 @@ std::ptrdiff_t Mesh::num_full_vertices() const { return data_->num_full_vertices
 int Mesh::full_vertex(std::ptrdiff_t vertex) const {
   return data_->full_vertex.empty() ? int(vertex) : data_->full_vertex.at(std::size_t(vertex));
 }
-const PairPlan& Mesh::plan() const { return data_->filter->plan; }
+const FilterCounts& Mesh::filter_counts() const { return data_->filter->counts; }
 
 void Mesh::release_memory() const {
   data_->buffer_pool->clear();

@@ -82,10 +82,10 @@ void list_kinds(const MeshData& m, PrimitiveFilter& filter) {
   const bool faces = m.num_vertices > 0 && !m.faces.empty();
   const bool edges = m.edges.size() > 1 || (faces && !m.edges.empty());
   const std::array<bool, 3> needed{faces, edges, faces};
-  const std::array<PrimitivePlan*, 3> plans{&filter.plan.vertices, &filter.plan.edges, &filter.plan.faces};
+  const std::array<PrimitiveFilterCounts*, 3> counts{&filter.counts.vertices, &filter.counts.edges, &filter.counts.faces};
   for (const Primitive kind : kPrimitives) {
     const std::size_t k = std::size_t(kind), count = primitive_count(m, kind);
-    (needed[k] ? plans[k]->moving : plans[k]->dropped) = std::int64_t(count);
+    (needed[k] ? counts[k]->moving : counts[k]->dropped) = std::int64_t(count);
     if (!needed[k] && count > 0) filter.all = false;
   }
   if (filter.all) return;
@@ -98,13 +98,13 @@ void list_kinds(const MeshData& m, PrimitiveFilter& filter) {
 
 void list_primitives(const MeshData& m, const std::array<std::vector<bool>, 3>& idle,
                      PrimitiveFilter& filter) {
-  const std::array<PrimitivePlan*, 3> plans{&filter.plan.vertices, &filter.plan.edges, &filter.plan.faces};
+  const std::array<PrimitiveFilterCounts*, 3> counts{&filter.counts.vertices, &filter.counts.edges, &filter.counts.faces};
   filter.all = false;
   for (const Primitive kind : kPrimitives) {
     const std::size_t k = std::size_t(kind);
     for (std::size_t id = 0; id < idle[k].size(); ++id)
       if (!idle[k][id]) (is_static(m, kind, int(id)) ? filter.statics : filter.moving)[k].push_back(int(id));
-    *plans[k] = {std::int64_t(filter.moving[k].size()), std::int64_t(filter.statics[k].size()),
+    *counts[k] = {std::int64_t(filter.moving[k].size()), std::int64_t(filter.statics[k].size()),
                  std::int64_t(idle[k].size() - filter.moving[k].size() - filter.statics[k].size())};
   }
 }
@@ -129,7 +129,7 @@ void finish_mesh(MeshData& mesh) {
   auto filter = std::make_shared<PrimitiveFilter>();
   if (needs_keys(mesh)) make_keys(mesh, *filter), flag_excluded_pairs(mesh, *filter);
   std::array<std::vector<bool>, 3> idle;
-  take_census(mesh, *filter, idle);
+  count_filtered(mesh, *filter, idle);
   if (filter->keeps_apart())
     list_primitives(mesh, idle, *filter);
   else

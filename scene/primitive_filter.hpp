@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "onset/plan.hpp"
+#include "onset/filter_counts.hpp"
 #include "scene/primitive.hpp"
 
 namespace onset {
@@ -20,7 +20,7 @@ inline constexpr int kStaticFlag = int(0x80000000u);  // all vertices static: th
 inline constexpr int kExcludedFlag = 1;  // named in an excluded pair, itself, by a vertex or its body
 
 struct PrimitiveFilter {
-  PairPlan plan;
+  FilterCounts counts;
   // By id; empty where no two primitives are kept apart but by a shared vertex.
   std::array<std::vector<PrimitiveKey>, 3> keys;
   // Ids in ascending order, by Primitive. `all`: every primitive takes part and moves (the lists are empty).

@@ -1,4 +1,4 @@
-// onset plan: which pairs a scene can have, and what left the others out.
+// onset filters: which pairs a scene can have, and what left the others out.
 #include <memory>
 #include <set>
 #include <utility>
@@ -27,7 +27,7 @@ std::vector<int> at_rest(const Scene& scene) {
   return rest;
 }
 
-std::string words(const char* name, const onset::KindPlan& plan, const char* needs) {
+std::string words(const char* name, const onset::PairFilterCounts& plan, const char* needs) {
   const auto number = [](std::int64_t n) { return static_cast<long long>(n); };
   std::string text = format("%-11s ", name);
   if (plan.pairs == 0) return text + "dropped: the mesh has no " + needs + "\n";
@@ -45,13 +45,13 @@ std::string words(const char* name, const onset::KindPlan& plan, const char* nee
   return text + (separator[0] == ' ' ? " none\n" : "\n");
 }
 
-std::string words(const char* name, const onset::PrimitivePlan& plan) {
+std::string words(const char* name, const onset::PrimitiveFilterCounts& plan) {
   return format("%-11s %lld moving, %lld static, %lld dropped\n", name, static_cast<long long>(plan.moving),
                 static_cast<long long>(plan.statics), static_cast<long long>(plan.dropped));
 }
 
 void report(const Scene& scene, const Inputs& inputs) {
-  const onset::PairPlan& plan = scene.mesh.plan();
+  const onset::FilterCounts& plan = scene.mesh.filter_counts();
   std::string text = describe_sizes(scene.mesh) + format("bodies      %d\n", scene.mesh.num_bodies()) +
                      words("vertex-face", plan.vertex_face, "vertex and face") +
                      words("edge-edge", plan.edge_edge, "two edges") + words("vertices", plan.vertices) +
@@ -75,7 +75,7 @@ void report(const Scene& scene, const Inputs& inputs) {
 void add_plan(CLI::App& app, Run& run) {
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command =
-      app.add_subcommand("plan", "Which pairs a scene can have at all, and why it has no others");
+      app.add_subcommand("filters", "Which pairs a scene can have at all, and why it has no others")->alias("plan");
   command->add_option("A", inputs->a, "Mesh: .ply, .obj, .off or .stl")->required();
   command->add_option("B", inputs->b, "The same mesh later: tells which bodies are at rest");
   add_body_options(*command, *inputs);

@@ -17,7 +17,7 @@ Json to_json(const onset::Pair& pair) {
 
 namespace {
 
-Json kind_json(const onset::KindPlan& p) {
+Json kind_json(const onset::PairFilterCounts& p) {
   return {{"needed", p.may_meet() > 0},
           {"pairs", p.pairs},
           {"may_meet", p.may_meet()},
@@ -29,13 +29,13 @@ Json kind_json(const onset::KindPlan& p) {
             {"excluded", p.excluded}}}};
 }
 
-Json primitive_json(const onset::PrimitivePlan& p) {
+Json primitive_json(const onset::PrimitiveFilterCounts& p) {
   return {{"moving", p.moving}, {"static", p.statics}, {"dropped", p.dropped}};
 }
 
 }  // namespace
 
-Json to_json(const onset::PairPlan& p) {
+Json to_json(const onset::FilterCounts& p) {
   return {{"vf", kind_json(p.vertex_face)},
           {"ee", kind_json(p.edge_edge)},
           {"vertices", primitive_json(p.vertices)},
@@ -59,7 +59,7 @@ Json to_json(const onset::Stats& s) {
           {"achieved_tolerance", s.achieved_tolerance},
           {"extent", s.extent},
           {"error_bound", s.error_bound},
-          {"plan", to_json(s.plan)},
+          {"plan", to_json(s.filter_counts)},
           {"made_fixed_boxes", s.made_static_boxes},
           {"threads", s.threads},
           {"kernel", s.kernel},

@@ -11,7 +11,7 @@ namespace app {
 const char* kind_name(onset::PairKind kind);    // "vf" or "ee"
 Json to_json(const onset::PairCounts& counts);  // {vf, ee}
 Json to_json(const onset::Pair& pair);          // {kind, a, b, vertices}, null for no pair
-Json to_json(const onset::PairPlan& plan);
+Json to_json(const onset::FilterCounts& plan);
 Json to_json(const onset::Stats& stats);
 Json seconds_json(const onset::Stats& stats);  // {broad, narrow, total}
 Json time_json(double time);  // null for never

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <onset/export.hpp>
-#include <onset/plan.hpp>
+#include <onset/filter_counts.hpp>
 #include <onset/result.hpp>
 #include <onset/views.hpp>
 #include <vector>
@@ -26,7 +26,7 @@ struct Intersection;  // onset/intersections.hpp
 // those that must keep a distance should be.
 //
 // A pair is left out of every call, and named by none, where any of the rules below says so; the primitives
-// left with no partner get no box. plan() counts.
+// left with no partner get no box. filter_counts() counts.
 class ONSET_API Mesh {
  public:
   // `vertices`: #V, the number of rows of every positions matrix. `edges`: #E x 2; `faces`: #F x 3. Throws
@@ -122,7 +122,7 @@ class ONSET_API Mesh {
   std::vector<double> surface_positions(const Positions& full) const;
 
   // Which pairs remain and what left the others out.
-  const PairPlan& plan() const;
+  const FilterCounts& filter_counts() const;
 
   // A mesh keeps the trees of its latest calls, their order and memory, for the next call on it, which gives
   // the same bytes with and without. This frees them; safe to call at any time.

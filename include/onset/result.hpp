@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <onset/export.hpp>
-#include <onset/plan.hpp>
+#include <onset/filter_counts.hpp>
 #include <vector>
 
 namespace onset {
@@ -80,7 +80,7 @@ struct Stats {
   double extent = 0;              // R: the largest corner difference that an overlapping pair can have
   std::array<double, 3>
       error_bound{};  // per axis: bound on the rounding error of a corner anywhere in the scene
-  PairPlan plan;                  // what the mesh leaves out of every step
+  FilterCounts filter_counts;         // what the mesh leaves out of every step
   bool made_static_boxes = false;  // boxes of static primitives were made in this call, not taken from an
                                   // earlier one
   int threads = 0;

@@ -61,7 +61,7 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
              Stats& stats, Budget& budget, double d_hat) {
   const MeshData& data = mesh.data();
   motion = make_motion(data, x_t0, x_t1);
-  if (data.filter) stats.plan = data.filter->plan;
+  if (data.filter) stats.filter_counts = data.filter->counts;
   stats.threads = current_threads();
   stats.kernel = kernel_name(resolve_kernel(options.kernel));
   if (motion.status != Outcome::free) return;

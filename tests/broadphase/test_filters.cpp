@@ -240,7 +240,7 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
             busy[std::size_t(first)][std::size_t(a)] = busy[std::size_t(second)][std::size_t(b)] = true;
         }
       if (kind == kEdgeFace) continue;  // in no plan, but what may meet that way has a box
-      const KindPlan& plan = kind == PairKind::vertex_face ? mesh.plan().vertex_face : mesh.plan().edge_edge;
+      const PairFilterCounts& plan = kind == PairKind::vertex_face ? mesh.filter_counts().vertex_face : mesh.filter_counts().edge_edge;
       CAPTURE(round, int(kind));
       CHECK(plan.pairs == pairs);
       CHECK(plan.masked == counts[masked]);
@@ -251,11 +251,11 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
       CHECK(plan.may_meet() == counts[none]);
     }
     // What may meet something is never dropped; adjacency and exclusions are not looked at for that.
-    const PrimitivePlan* plans[] = {&mesh.plan().vertices, &mesh.plan().edges, &mesh.plan().faces};
+    const PrimitiveFilterCounts* plans[] = {&mesh.filter_counts().vertices, &mesh.filter_counts().edges, &mesh.filter_counts().faces};
     for (const Primitive p : kPrimitives) {
       const auto& marks = busy[std::size_t(p)];
       const std::int64_t needed = std::count(marks.begin(), marks.end(), true);
-      const PrimitivePlan& plan = *plans[std::size_t(p)];
+      const PrimitiveFilterCounts& plan = *plans[std::size_t(p)];
       CHECK(plan.moving + plan.statics >= needed);
       CHECK(plan.moving + plan.statics + plan.dropped == std::int64_t(marks.size()));
     }
@@ -269,26 +269,26 @@ TEST_CASE("what can meet nothing gets no box", "[unit]") {
     return Mesh(soup.mesh.num_vertices, Indices(matrix(soup.mesh.edges)),
                 faces ? Indices(matrix(soup.mesh.faces)) : Indices());
   };
-  const PairPlan wires = mesh(false).plan(), all = mesh(true).plan();
+  const FilterCounts wires = mesh(false).filter_counts(), all = mesh(true).filter_counts();
   CHECK(wires.vertices.dropped == 120);
   CHECK(wires.edges.moving == 120);
   CHECK(all.vertices.moving == 120);
   CHECK(all.faces.moving == 40);
   Mesh rigid = mesh(true);
   rigid.set_rigid({true});
-  CHECK(rigid.plan().vertices.dropped == 120);
-  CHECK(rigid.plan().edges.dropped == 120);
-  CHECK(rigid.plan().faces.dropped == 40);
-  CHECK(rigid.plan().edge_edge.may_meet() == 0);
+  CHECK(rigid.filter_counts().vertices.dropped == 120);
+  CHECK(rigid.filter_counts().edges.dropped == 120);
+  CHECK(rigid.filter_counts().faces.dropped == 40);
+  CHECK(rigid.filter_counts().edge_edge.may_meet() == 0);
   Mesh still = mesh(true);
   still.set_static(std::vector<bool>(120, true));
-  CHECK(still.plan().faces.dropped == 40);
+  CHECK(still.filter_counts().faces.dropped == 40);
   Mesh ghost = mesh(true);  // the first triangle is in no group
   std::vector<std::uint32_t> groups(120, 1), masks(120, 1);
   groups[0] = groups[1] = groups[2] = 0;
   ghost.set_groups(groups, masks);
-  CHECK(ghost.plan().vertices.dropped == 3);
-  CHECK(ghost.plan().edges.dropped == 3);
-  CHECK(ghost.plan().faces.dropped == 1);
-  CHECK(ghost.plan().faces.moving == 39);
+  CHECK(ghost.filter_counts().vertices.dropped == 3);
+  CHECK(ghost.filter_counts().edges.dropped == 3);
+  CHECK(ghost.filter_counts().faces.dropped == 1);
+  CHECK(ghost.filter_counts().faces.moving == 39);
 }

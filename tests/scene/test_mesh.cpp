@@ -61,8 +61,8 @@ TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]
   CHECK_THROWS_WITH(mesh.set_excluded_vertices({{3, 3}}), Catch::Contains("excluded vertices row 0"));
   CHECK_THROWS_WITH(mesh.set_full_vertices(std::vector<int>(16, 2), 30),
                     Catch::Contains("row 1") && Catch::Contains("repeated"));
-  CHECK(mesh.plan().vertex_face.same_body == 0);
-  CHECK(mesh.plan().vertex_face.excluded == 0);
+  CHECK(mesh.filter_counts().vertex_face.same_body == 0);
+  CHECK(mesh.filter_counts().vertex_face.excluded == 0);
 }
 
 TEST_CASE("faces need their edges: what is missing is named, and complete_edges adds it", "[unit]") {
@@ -129,14 +129,14 @@ TEST_CASE("pairs to leave out are named by row where they are none", "[unit]") {
                       Catch::Contains("row 1") && Catch::Contains("kind " + std::to_string(kind)));
   CHECK_THROWS_WITH(mesh.set_excluded_intersections({{0, 24, IntersectionKind::crossing, {}}}),
                     Catch::Contains("excluded intersections row 0: face 24"));
-  CHECK(mesh.plan().vertex_face.excluded == 0);
+  CHECK(mesh.filter_counts().vertex_face.excluded == 0);
   mesh.set_excluded_pairs({good, {PairKind::edge_edge, 30, 2, {}}, good});
-  CHECK((mesh.plan().vertex_face.excluded == 1 && mesh.plan().edge_edge.excluded == 1));
+  CHECK((mesh.filter_counts().vertex_face.excluded == 1 && mesh.filter_counts().edge_edge.excluded == 1));
   mesh.set_excluded_vertices({{15, mesh.face(0)[0]}});  // the same pair, counted once
-  CHECK(mesh.plan().vertex_face.excluded > 1);
-  const std::int64_t both = mesh.plan().vertex_face.excluded;
+  CHECK(mesh.filter_counts().vertex_face.excluded > 1);
+  const std::int64_t both = mesh.filter_counts().vertex_face.excluded;
   mesh.set_excluded_pairs({});
-  CHECK(mesh.plan().vertex_face.excluded == both);
+  CHECK(mesh.filter_counts().vertex_face.excluded == both);
 }
 
 TEST_CASE("new points forget the pairs of old ones", "[unit]") {
@@ -145,9 +145,9 @@ TEST_CASE("new points forget the pairs of old ones", "[unit]") {
   mesh.set_excluded_pairs(
       {{PairKind::edge_edge, 3, 4, {}}, {PairKind::vertex_face, 7, 0, {}}, {PairKind::edge_edge, 0, 3, {}}});
   mesh.set_excluded_intersections({{4, 0, IntersectionKind::touching, {}}});
-  CHECK((mesh.plan().edge_edge.excluded == 2 && mesh.plan().vertex_face.excluded == 1));
+  CHECK((mesh.filter_counts().edge_edge.excluded == 2 && mesh.filter_counts().vertex_face.excluded == 1));
   mesh.set_points({6, 7, 8});
-  CHECK((mesh.plan().edge_edge.excluded == 0 && mesh.plan().vertex_face.excluded == 1));
+  CHECK((mesh.filter_counts().edge_edge.excluded == 0 && mesh.filter_counts().vertex_face.excluded == 1));
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(9, 3);
   x.row(1) << 1, 0, 0, x.row(2) << 0, 1, 0;
   CHECK(intersections(mesh, x).size() == 3);
@@ -168,7 +168,7 @@ TEST_CASE("points are vertices of no edge or face, each once, after the edges", 
   CHECK_THROWS_WITH(mesh.set_points({5, 2}), Catch::Contains("row 1: vertex 2 belongs to an edge or a face"));
   CHECK((mesh.num_edges() == 6 && mesh.edge(4)[0] == 7));
   mesh.set_points({6});
-  CHECK((mesh.num_edges() == 5 && mesh.edge(4)[0] == 6 && mesh.plan().edge_edge.pairs == 10));
+  CHECK((mesh.num_edges() == 5 && mesh.edge(4)[0] == 6 && mesh.filter_counts().edge_edge.pairs == 10));
   mesh.set_points({});
   CHECK((mesh.num_edges() == 4 && mesh.num_points() == 0));
   edges << 3, 3;
@@ -325,6 +325,6 @@ TEST_CASE("a thousand rigid bodies make no pair within a body", "[property]") {
   CHECK(vf.size() < before.vertex_face.size());
   CHECK((found.vertex_face == vf));
   CHECK((found.edge_edge == ee));
-  CHECK(found.stats.plan.vertex_face.same_body == 1000 * 8 * 12);
-  CHECK(found.stats.plan.edge_edge.same_body == 1000 * 18 * 17 / 2);
+  CHECK(found.stats.filter_counts.vertex_face.same_body == 1000 * 8 * 12);
+  CHECK(found.stats.filter_counts.edge_edge.same_body == 1000 * 18 * 17 / 2);
 }

@@ -282,7 +282,7 @@ TEST_CASE("the plan counts points as edges, with and without rules", "[property]
     Options o;
     o.min_separation = 100;  // all are candidates
     const Candidates all = compute_candidates(m.mesh, m.scene.x_t0, m.scene.x_t1, o);
-    const PairPlan& plan = m.mesh.plan();
+    const FilterCounts& plan = m.mesh.filter_counts();
     CAPTURE(rules);
     CHECK(plan.edge_edge.pairs == 18 * 17 / 2);
     if (rules == 0) CHECK(plan.edge_edge.adjacent == 8);  // three a triangle, and two chains of two wires

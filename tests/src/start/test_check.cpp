@@ -247,11 +247,11 @@ TEST_CASE("pairs that are found can be left out, by every call", "[property]") {
     REQUIRE((!report.touching.empty() && !report.within_separation.empty()));
     CHECK(says(report, StartFault::touching, "mesh.set_excluded_pairs(report.touching)"));
     CHECK(says(report, StartFault::within_separation, "Options::min_separation"));
-    const PairPlan before = crowd.mesh.plan();
+    const FilterCounts before = crowd.mesh.filter_counts();
     crowd.mesh.set_excluded_pairs(report.touching);
     StartReport rest = check(crowd.mesh, crowd.x, o);
     CHECK((rest.touching.empty() && rest.within_separation.size() == report.within_separation.size()));
-    const PairPlan& plan = crowd.mesh.plan();
+    const FilterCounts& plan = crowd.mesh.filter_counts();
     CHECK(plan.vertex_face.excluded + plan.edge_edge.excluded == std::int64_t(report.touching.size()));
     CHECK(plan.vertex_face.may_meet() + plan.edge_edge.may_meet() ==
           before.vertex_face.may_meet() + before.edge_edge.may_meet() - std::int64_t(report.touching.size()));

@@ -143,7 +143,7 @@ TEST_CASE("an edge may meet a face and neither its edges nor its vertices", "[un
   Mesh mesh(5, complete_edges(wire, F), F);
   mesh.set_groups({1, 0, 0, 1, 0}, {0, 1, 0, 0, 1});
   mesh.set_static({true, true, false, true, true});
-  CHECK((mesh.plan().edge_edge.may_meet() == 0 && mesh.plan().vertex_face.may_meet() == 0));
+  CHECK((mesh.filter_counts().edge_edge.may_meet() == 0 && mesh.filter_counts().vertex_face.may_meet() == 0));
   for (const Options& o : all_ways()) {
     CHECK(intersections(mesh, x, o).count(IntersectionKind::crossing) == 1);
     CHECK(has_intersections(mesh, x, o));

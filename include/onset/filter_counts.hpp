@@ -6,10 +6,10 @@
 namespace onset {
 
 // Pairs of one kind, from topology and filters alone: exact, the same for every step and broad phase.
-struct KindPlan {
+struct PairFilterCounts {
   std::int64_t pairs = 0;  // vertex-face: #V #F; edge-edge: #E (#E - 1) / 2, with Mesh::set_points among #E
   // Left out, each pair under the first reason that holds:
-  std::int64_t masked = 0;     // groups and masks (Mesh::set_groups); see PairPlan for very many of them
+  std::int64_t masked = 0;     // groups and masks (Mesh::set_groups); see FilterCounts for very many of them
   std::int64_t both_static = 0;  // both primitives are static
   std::int64_t same_body = 0;  // both in one body that is rigid or does not collide with itself
   std::int64_t adjacent = 0;   // they share a vertex
@@ -18,16 +18,16 @@ struct KindPlan {
 };
 
 // Primitives of one kind. What the rules let meet nothing, shared vertices apart, is dropped: it gets no box.
-struct PrimitivePlan {
+struct PrimitiveFilterCounts {
   std::int64_t moving = 0, statics = 0;  // that take part; statics: all vertices are static
   std::int64_t dropped = 0;
 };
 
 // Where more than 1,024 different combinations of group and mask occur, masked pairs are not counted (0), and
 // no primitive is dropped on their account; they are left out all the same.
-struct PairPlan {
-  KindPlan vertex_face, edge_edge;
-  PrimitivePlan vertices, edges, faces;
+struct FilterCounts {
+  PairFilterCounts vertex_face, edge_edge;
+  PrimitiveFilterCounts vertices, edges, faces;
 };
 
 }  // namespace onset
