@@ -81,7 +81,7 @@ double reported_within(double tolerance, double extent) {
 
 bool NarrowPhase::uses_t_max() const { return in_.options.max_checks >= kChecksForTMax; }
 
-void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
+void NarrowPhase::gather(PairKind kind, const IdPair* pairs, std::size_t count,
                           NarrowPhaseScratch& scratch) const {
   scratch.vertices.resize(4 * count);
   scratch.survivors.resize(count);
@@ -104,7 +104,7 @@ void NarrowPhase::look_up(PairKind kind, const IdPair* pairs, std::size_t count,
 
 KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                                  NarrowPhaseScratch& scratch) const {
-  look_up(kind, pairs, count, scratch);
+  gather(kind, pairs, count, scratch);
   // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
   // tolerance to use.
   const bool inclusion_only = in_.options.narrow_phase == NarrowPhaseMethod::inclusion;
@@ -137,7 +137,7 @@ int NarrowPhase::cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratc
     for (int i = 0; i < input.count; ++i) scratch.survivors[std::size_t(i)] = i;
     return input.count;
   }
-  const auto cull = kind == PairKind::vertex_face ? kernels_->cull_vertex_face : kernels_->cull_edge_edge;
+  const auto cull = kernels_->of_kind[int(kind)].cull;
   return cull(input, scratch.survivors.data());
 }
 
@@ -198,26 +198,21 @@ void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int s
 
 double NarrowPhase::distance_at(const Case& c, double t) const {
   double w[3];
-  return (c.kind == PairKind::vertex_face ? kernels_->look_vertex_face : kernels_->look_edge_edge)(
-      c.input, c.row, t, w);
+  return kernels_->of_kind[int(c.kind)].closest_direction(c.input, c.row, t, w);
 }
 
 Corners NarrowPhase::corners_of(const Case& c) const { return make_corners(c.kind, in_.motion, c.vertices()); }
 
 void NarrowPhase::advance(PairKind kind, const KernelPairs& pairs, const int* rows, int count,
                           const KernelResume* resume, KernelResult* results) const {
-  const auto of_kind =
-      kind == PairKind::vertex_face ? kernels_->advance_vertex_face : kernels_->advance_edge_edge;
-  of_kind(pairs, rows, count, resume, results);
+  kernels_->of_kind[int(kind)].advance(pairs, rows, count, resume, results);
 }
 void NarrowPhase::advance(const Case& c, const KernelResume* resume, KernelResult& result) const {
   advance(c.kind, c.input, &c.row, 1, resume, &result);
 }
 void NarrowPhase::certify(PairKind kind, const KernelPairs& pairs, const int* rows, int count,
                           KernelResult* results) const {
-  const auto of_kind =
-      kind == PairKind::vertex_face ? kernels_->certify_vertex_face : kernels_->certify_edge_edge;
-  of_kind(pairs, rows, count, results);
+  kernels_->of_kind[int(kind)].certify(pairs, rows, count, results);
 }
 
 // A pair that crawls: certify an interval and go on, or go on regardless for a while. Real contacts of

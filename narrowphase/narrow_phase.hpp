@@ -122,7 +122,7 @@ class NarrowPhase {
   static KernelPairs without_storing(KernelPairs pairs, double t_max);
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
   void advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const;
-  void look_up(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
+  void gather(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
   Corners corners_of(const Case& c) const;
   double distance_at(const Case& c, double t) const;  // scaled upper bound
   void advance(PairKind kind, const KernelPairs& pairs, const int* rows, int count, const KernelResume* resume,

@@ -26,14 +26,14 @@ void fill_row(const Mesh& mesh, const FoundPair& f, std::size_t i, ActiveSet& se
 
 // Rows [first, last) are of one kind, and at most kRowsAtOnce.
 void fill_frames(const Motion& motion, Kernel kernel, std::size_t first, std::size_t last, ActiveSet& set) {
-  ContactFrame frames[kRowsAtOnce];
+  ContactGeometry frames[kRowsAtOnce];
   bool parting[kRowsAtOnce] = {};
   for (std::size_t i = first; i < last; ++i)
     parting[i - first] = set.status[i] == Outcome::initial_separating;
-  contact_frames(kernel, set.kind[first], motion, set.vertices.data() + first, set.toi.data() + first,
+  contact_geometries(kernel, set.kind[first], motion, set.vertices.data() + first, set.toi.data() + first,
                  parting, last - first, frames);
   for (std::size_t i = first; i < last; ++i) {
-    const ContactFrame& f = frames[i - first];
+    const ContactGeometry& f = frames[i - first];
     set.weight[i] = f.weight, set.normal[i] = f.normal, set.gap[i] = f.gap, set.speed[i] = f.speed;
     set.degenerate[i] = f.degenerate;
   }

@@ -23,7 +23,7 @@ IntersectionKind kind_of(EdgeFace found) {
   }
 }
 
-void look(const MeshData& mesh, const Motion& motion, IdPair ids, std::vector<Intersection>& found) {
+void add_if_common(const MeshData& mesh, const Motion& motion, IdPair ids, std::vector<Intersection>& found) {
   const auto& e = mesh.edges[std::size_t(ids.a)];
   const auto& f = mesh.faces[std::size_t(ids.b)];
   const double* const x[5] = {motion.t0(e[0]), motion.t0(e[1]), motion.t0(f[0]), motion.t0(f[1]), motion.t0(f[2])};
@@ -61,7 +61,7 @@ Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, st
   auto all = gather<Intersection>(
       *rest.broad, {kEdgeFace}, most, budget,
       [&](PairKind, const IdPair* pairs, std::size_t count, std::vector<Intersection>& found) {
-        for (std::size_t i = 0; i < count; ++i) look(data, rest.motion, pairs[i], found);
+        for (std::size_t i = 0; i < count; ++i) add_if_common(data, rest.motion, pairs[i], found);
       });
   parallel_sort(all.found.begin(), all.found.end(), [](const Intersection& p, const Intersection& q) {
     return p.edge != q.edge ? p.edge < q.edge : p.face < q.face;

@@ -51,7 +51,7 @@ constexpr double kRounding = 0x1p-50, kWidest = 0x1.8p-48;  // 8u, 48u
 
 // In doubles; false: they do not tell, be it for a tie, for a primitive that is too thin, or as the pair may
 // touch.
-bool look(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
+bool find(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
   const Plane<double> plane(d);
   Nearest<double> nearest;
   nearest.inside = plane.resolved && foot_on_plane(d, plane, nearest);
@@ -87,7 +87,7 @@ VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
 // that is off by that relative to the distance costs the far ends of a feature 2^-98 rho^2 / distance of
 // their margin, less than 4u rho where the distance is more than 2^-47 rho; where it is less, 0 is close
 // enough a bound.
-void look_closer(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
+void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
                  Bounds& bounds) {
   using V = VecOf<DoubleDouble>;
   const Plane<DoubleDouble> plane(d);
@@ -137,14 +137,14 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]) {
   ClosestPoints r;
   Bounds bounds;
   const Differences<double> d = rounded_differences(kind, x, scale);
-  if (!look(d, 0, r, bounds))
-    look_closer(precise_differences(kind, x, scale), largest_corner(d), 0, r, bounds);
+  if (!find(d, 0, r, bounds))
+    find_precisely(precise_differences(kind, x, scale), largest_corner(d), 0, r, bounds);
   return in_model_length(r, bounds, scale);
 }
 
 bool quick_closest_points(const Differences<double>& d, double blur, ClosestPoints& r) {
   Bounds bounds;
-  const bool told = look(d, blur, r, bounds);
+  const bool told = find(d, blur, r, bounds);
   r.distance = bounds.distance, r.lower = bounds.lower, r.upper = bounds.upper;
   return told;
 }
@@ -154,7 +154,7 @@ ClosestPoints precise_closest_points(const Differences<DoubleDouble>& d, double 
   for (int k = 0; k < d.corners(); ++k) rho2 = std::max(rho2, dot(d.corner[k], d.corner[k]).hi);
   ClosestPoints r;
   Bounds bounds;
-  look_closer(d, std::sqrt(rho2), blur, r, bounds);
+  find_precisely(d, std::sqrt(rho2), blur, r, bounds);
   r.distance = bounds.distance, r.lower = bounds.lower, r.upper = bounds.upper;
   return r;
 }
@@ -169,7 +169,7 @@ ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const 
   const double blur = motion.blur(t);
   ClosestPoints r;
   Bounds bounds;
-  if (!look(d, blur, r, bounds)) look_closer(precise, largest_corner(d), blur, r, bounds);
+  if (!find(d, blur, r, bounds)) find_precisely(precise, largest_corner(d), blur, r, bounds);
   return in_model_length(r, bounds, 1 / motion.unit);
 }
 

@@ -107,7 +107,7 @@ class Touching {
 };
 
 // Lengths in units of the pair.
-struct Frame {
+struct Geometry {
   ClosestPoints near;
   Vec normal;
   double speed, unit;
@@ -118,7 +118,7 @@ struct Frame {
 // so. Mixed differences are 4u of their sizes at both ends off. A direction whose margin is within 2^-47 of
 // the distance, both of the size, is within 2^-17 of the right one at worst, where features tie, and within
 // 2^-40 else. Motions are sums of three differences, 12u of their size off at either end.
-bool wide_frame(const ExactPair& pair, double t, Frame& f) {
+bool wide_geometry(const ExactPair& pair, double t, Geometry& f) {
   const double scale = inverse_unit(
       std::max(largest_corner_component(pair.kind, pair.t0), largest_corner_component(pair.kind, pair.t1)));
   const Differences<double> start = rounded_differences(pair.kind, pair.t0, scale),
@@ -138,10 +138,10 @@ bool wide_frame(const ExactPair& pair, double t, Frame& f) {
   return std::fabs(f.speed) > 0x1p-46 * kLargest || (f.speed == 0 && rests(pair));
 }
 
-Frame precise_frame(const ExactPair& pair, double t, bool parting, bool odd_axes) {
+Geometry precise_geometry(const ExactPair& pair, double t, bool parting, bool odd_axes) {
   const PreciseMotion precise(pair.kind, pair.t0, pair.t1);
   const Differences<DoubleDouble> d = precise.at(t);
-  Frame f{precise_closest_points(d, precise.blur(t)), {}, 0, precise.unit, false};
+  Geometry f{precise_closest_points(d, precise.blur(t)), {}, 0, precise.unit, false};
   f.normal = vec(f.near.direction);
   const VecOf<DoubleDouble> moved = motion_of(precise, f.near.weights);
   const bool inside =
@@ -159,12 +159,12 @@ Frame precise_frame(const ExactPair& pair, double t, bool parting, bool odd_axes
 
 }  // namespace
 
-ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
+ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
                            bool parting) {
   const ExactPair pair = exact_pair(kind, motion, vertices);
-  Frame f;
-  if (!wide_frame(pair, t, f)) f = precise_frame(pair, t, parting, odd(motion.axes));
-  ContactFrame r;
+  Geometry f;
+  if (!wide_geometry(pair, t, f)) f = precise_geometry(pair, t, parting, odd(motion.axes));
+  ContactGeometry r;
   std::copy(f.near.weights, f.near.weights + 4, r.weight.begin());
   for (int i = 0; i < 3; ++i) r.normal[std::size_t(motion.axes[std::size_t(i)])] = f.normal[i] + 0.0;
   r.gap = f.near.distance * f.unit;
@@ -173,24 +173,23 @@ ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array
   return r;
 }
 
-void contact_frames(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
-                    const double* t, const bool* parting, std::size_t count, ContactFrame* frames) {
-  const KernelTable& kernels = kernels_for(kernel);
-  const auto of_kind = kind == PairKind::vertex_face ? kernels.frames_vertex_face : kernels.frames_edge_edge;
+void contact_geometries(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
+                    const double* t, const bool* parting, std::size_t count, ContactGeometry* out) {
+  const KernelsOfKind& kernels = kernels_for(kernel).of_kind[int(kind)];
   constexpr std::size_t kAtOnce = 64;
-  KernelFrame found[kAtOnce];
+  KernelContact found[kAtOnce];
   KernelPairs pairs{};
   pairs.x = motion.x.data();
   for (std::size_t first = 0; first < count; first += kAtOnce) {
     pairs.vertices = reinterpret_cast<const int (*)[4]>(vertices + first);
     pairs.count = int(std::min(kAtOnce, count - first));
-    of_kind(pairs, t + first, found);
+    kernels.contact_geometry(pairs, t + first, found);
     for (int i = 0; i < pairs.count; ++i) {
-      const KernelFrame& f = found[i];
+      const KernelContact& f = found[i];
       const std::size_t row = first + std::size_t(i);
-      ContactFrame& r = frames[row];
+      ContactGeometry& r = out[row];
       if (!f.ordinary) {
-        r = contact_frame(kind, motion, vertices[row], t[row], parting[row]);
+        r = contact_geometry(kind, motion, vertices[row], t[row], parting[row]);
         continue;
       }
       r = {{f.weight[0], f.weight[1], f.weight[2], f.weight[3]}, {}, f.gap, f.speed, false};

@@ -9,7 +9,7 @@
 
 namespace onset {
 
-struct ContactFrame {
+struct ContactGeometry {
   // Of the pair's four vertices: the closest points, the first side's sum to 1, the second's to -1, so that
   // p1 - p2 = sum of weight * position. Clamped to the primitives.
   std::array<double, 4> weight{};
@@ -28,12 +28,12 @@ struct ContactFrame {
 // At time t in [0, 1], until which the pair is apart. `parting`: the pair is in contact at t = 0 and the
 // motion parts it (its past then lies on the side that it moves to). The weights give p1 - p2 within about
 // 20u rho of the shortest difference, rho the pair's largest corner difference.
-ContactFrame contact_frame(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
+ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
                            bool parting);
 
 // The same for `count` pairs of one kind, ordinary ones in lanes: frames[i] of vertices[i] at t[i].
 // `parting[i]`: as above.
-void contact_frames(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
-                    const double* t, const bool* parting, std::size_t count, ContactFrame* frames);
+void contact_geometries(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
+                    const double* t, const bool* parting, std::size_t count, ContactGeometry* out);
 
 }  // namespace onset

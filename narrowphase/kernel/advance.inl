@@ -8,7 +8,7 @@
 
 // What is seen at time t: the best direction and an upper bound of the distance.
 template <class V, int K>
-inline void look(const State<V, K>& s, V t, bool maximum_norm, V (&w)[3], V& dist) {
+inline void closest_direction(const State<V, K>& s, V t, bool maximum_norm, V (&w)[3], V& dist) {
   V c[K][3], e1[3], e2[3], f[3], shortest;
   for (int k = 0; k < K; ++k)
     for (int a = 0; a < 3; ++a) c[k][a] = lerp(s.c[0][k][a], s.c[1][k][a], t);
@@ -168,7 +168,7 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   using V = D4;
   const bool maximum_norm = pairs.maximum_norm;
   V w[3], dist;
-  look(s, s.t, maximum_norm, w, dist);
+  closest_direction(s, s.t, maximum_norm, w, dist);
   const V e7 = V::all(7.25 * kU) * s.rho;
   // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 5u) for the Euclidean norm.
   V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
@@ -218,7 +218,7 @@ inline void restore(const KernelResume* resume, const int (&positions)[4], State
 template <int K>
 inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) {
   D4 w[3], dist;
-  look(s, s.t, pairs.maximum_norm, w, dist);
+  closest_direction(s, s.t, pairs.maximum_norm, w, dist);
   judge(s, advance(s, w, dist, pairs.maximum_norm, false), pairs, verdict);
 }
 
@@ -293,12 +293,12 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
 }
 
 template <int K>
-inline double look_at(const KernelPairs& pairs, int row, double t, double (&w)[3]) {
+inline double closest_direction_of(const KernelPairs& pairs, int row, double t, double (&w)[3]) {
   const int rows[4] = {row, row, row, row};
   State<D4, K> s;
   set_up(pairs, rows, s);
   D4 direction[3], dist;
-  look(s, D4::all(t), pairs.maximum_norm, direction, dist);
+  closest_direction(s, D4::all(t), pairs.maximum_norm, direction, dist);
   double lanes[4];
   for (int a = 0; a < 3; ++a) {
     direction[a].store(lanes);

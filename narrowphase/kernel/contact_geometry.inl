@@ -1,4 +1,4 @@
-// Kernel text: contact points and normal of ordinary contacts (contact_frame.hpp), in double lanes: closest points certainly inside
+// Kernel text: contact points and normal of ordinary contacts (distance/contact_geometry.hpp), in double lanes: closest points certainly inside
 // both primitives, a resolved cross product, a gap and a motion along it that are more than rounding. Others are left to the scalar
 // code.
 //
@@ -13,13 +13,13 @@ inline V squared_size(const V (&x)[2][3]) {
 }
 
 template <class V>
-struct Frame {
+struct Geometry {
   V u, v, normal[3], gap, speed;  // gap and speed scaled; U and V multiples of 2^-52
   typename V::Mask ordinary;
 };
 
 template <class V, int K>
-inline void frame_at(const RelativeMotion<V>& r, V t, Frame<V>& f) {
+inline void geometry_at(const RelativeMotion<V>& r, V t, Geometry<V>& f) {
   V q[3], a[3], b[3], along[3], other[3], across[3], left[3];
   for (int i = 0; i < 3; ++i) {
     q[i] = lerp(r.q[0][i], r.q[1][i], t);
@@ -72,7 +72,7 @@ inline void frame_at(const RelativeMotion<V>& r, V t, Frame<V>& f) {
 }
 
 template <int K>
-inline void frames_all(const KernelPairs& pairs, const double* t, KernelFrame* frames) {
+inline void contact_geometry_all(const KernelPairs& pairs, const double* t, KernelContact* contacts) {
   using V = D4;
   for (int first = 0; first < pairs.count; first += 4) {
     int rows[4];
@@ -83,14 +83,14 @@ inline void frames_all(const KernelPairs& pairs, const double* t, KernelFrame* f
     }
     RelativeMotion<V> r;
     set_relative<K>(pairs, rows, r);
-    Frame<V> f;
-    frame_at<V, K>(r, V::load(times), f);
+    Geometry<V> f;
+    geometry_at<V, K>(r, V::load(times), f);
     f.u.store(u), f.v.store(v), f.gap.store(gap), f.speed.store(speed);
     (one<V>() / r.scale).store(unit);
     for (int i = 0; i < 3; ++i) f.normal[i].store(n[i]);
     const int ordinary = bits(f.ordinary);
     for (int l = 0; l < 4 && first + l < pairs.count; ++l) {
-      KernelFrame& out = frames[first + l];
+      KernelContact& out = contacts[first + l];
       out.ordinary = ordinary >> l & 1;
       const double weights[2][4] = {{1, -(1 - u[l] - v[l]), -u[l], -v[l]}, {1 - u[l], u[l], -(1 - v[l]), -v[l]}};
       for (int i = 0; i < 4; ++i) out.weight[i] = weights[K == 4][i];

@@ -57,34 +57,32 @@ struct KernelResume {
   double patience;  // crawling checks allowed beyond the usual ones
 };
 
-// Where a pair touches, in the order of axes of the motion. Only where it is ordinary (contact_frame.inl) do the rest hold.
-struct KernelFrame {
+// Where a pair touches, in the order of axes of the motion. Only where it is ordinary (contact_geometry.inl) do the rest hold.
+struct KernelContact {
   double weight[4], normal[3];
   double gap, speed;  // model length
   bool ordinary;
 };
 
-struct KernelTable {
-  const char* name;
+// The kernels of one kind of pair.
+struct KernelsOfKind {
   // Writes the indices of the pairs that single precision cannot certify as apart on the whole step; returns
   // their number.
-  int (*cull_vertex_face)(const KernelPairs&, int* survivors);
-  int (*cull_edge_edge)(const KernelPairs&, int* survivors);
+  int (*cull)(const KernelPairs&, int* survivors);
   // Directional conservative advancement of the pairs subset[0..count), results at the same positions as in
   // subset. From t = 0, or from resume[0..count) where it is not null.
-  void (*advance_vertex_face)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
-                              KernelResult*);
-  void (*advance_edge_edge)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
-                            KernelResult*);
+  void (*advance)(const KernelPairs&, const int* subset, int count, const KernelResume* resume, KernelResult*);
   // Sets touched_by of those of results[0..count), as advance left them, that are in contact and have no separation.
-  void (*certify_vertex_face)(const KernelPairs&, const int* subset, int count, KernelResult* results);
-  void (*certify_edge_edge)(const KernelPairs&, const int* subset, int count, KernelResult* results);
+  void (*certify)(const KernelPairs&, const int* subset, int count, KernelResult* results);
   // Contact points, normals, gaps and speeds of pairs 0..count at the times t; separations are not read.
-  void (*frames_vertex_face)(const KernelPairs&, const double* t, KernelFrame*);
-  void (*frames_edge_edge)(const KernelPairs&, const double* t, KernelFrame*);
+  void (*contact_geometry)(const KernelPairs&, const double* t, KernelContact*);
   // The direction that separates pair `row` best at time t; returns a scaled upper bound of the distance then.
-  double (*look_vertex_face)(const KernelPairs&, int row, double t, double (&w)[3]);
-  double (*look_edge_edge)(const KernelPairs&, int row, double t, double (&w)[3]);
+  double (*closest_direction)(const KernelPairs&, int row, double t, double (&w)[3]);
+};
+
+struct KernelTable {
+  const char* name;
+  KernelsOfKind of_kind[2];  // by PairKind
 };
 
 const KernelTable& scalar_kernels();

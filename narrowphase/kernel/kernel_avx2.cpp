@@ -4,17 +4,7 @@
 
 namespace onset {
 const KernelTable& avx2_kernels() {
-  static const KernelTable table{"avx2",
-                                 avx2::cull_vertex_face,
-                                 avx2::cull_edge_edge,
-                                 avx2::advance_vertex_face,
-                                 avx2::advance_edge_edge,
-                                 avx2::certify_vertex_face,
-                                 avx2::certify_edge_edge,
-                                 avx2::frames_vertex_face,
-                                 avx2::frames_edge_edge,
-                                 avx2::look_vertex_face,
-                                 avx2::look_edge_edge};
+  static const KernelTable table{"avx2", {avx2::kKernels<3>, avx2::kKernels<4>}};
   return table;
 }
 }  // namespace onset

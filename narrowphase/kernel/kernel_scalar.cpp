@@ -4,17 +4,7 @@
 
 namespace onset {
 const KernelTable& scalar_kernels() {
-  static const KernelTable table{"scalar",
-                                 scalar::cull_vertex_face,
-                                 scalar::cull_edge_edge,
-                                 scalar::advance_vertex_face,
-                                 scalar::advance_edge_edge,
-                                 scalar::certify_vertex_face,
-                                 scalar::certify_edge_edge,
-                                 scalar::frames_vertex_face,
-                                 scalar::frames_edge_edge,
-                                 scalar::look_vertex_face,
-                                 scalar::look_edge_edge};
+  static const KernelTable table{"scalar", {scalar::kKernels<3>, scalar::kKernels<4>}};
   return table;
 }
 }  // namespace onset

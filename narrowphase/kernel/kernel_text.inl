@@ -24,26 +24,9 @@ namespace {
 
 #include "narrowphase/kernel/contact_geometry.inl"
 
-int cull_vertex_face(const KernelPairs& pairs, int* survivors) { return cull_all<3>(pairs, survivors); }
-int cull_edge_edge(const KernelPairs& pairs, int* survivors) { return cull_all<4>(pairs, survivors); }
-void advance_vertex_face(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
-                         KernelResult* results) {
-  advance_all<3>(pairs, subset, count, resume, results);
-}
-void advance_edge_edge(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
-                       KernelResult* results) {
-  advance_all<4>(pairs, subset, count, resume, results);
-}
-void certify_vertex_face(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
-  certify_all<3>(pairs, subset, count, results);
-}
-void certify_edge_edge(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
-  certify_all<4>(pairs, subset, count, results);
-}
-void frames_vertex_face(const KernelPairs& pairs, const double* t, KernelFrame* frames) { frames_all<3>(pairs, t, frames); }
-void frames_edge_edge(const KernelPairs& pairs, const double* t, KernelFrame* frames) { frames_all<4>(pairs, t, frames); }
-double look_vertex_face(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<3>(pairs, row, t, w); }
-double look_edge_edge(const KernelPairs& pairs, int row, double t, double (&w)[3]) { return look_at<4>(pairs, row, t, w); }
+// K corners: 3 of a vertex-face pair, 4 of two edges.
+template <int K>
+constexpr KernelsOfKind kKernels{cull_all<K>, advance_all<K>, certify_all<K>, contact_geometry_all<K>, closest_direction_of<K>};
 
 }  // namespace
 }  // namespace ONSET_KERNEL

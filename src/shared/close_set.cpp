@@ -35,7 +35,7 @@ struct Task {
 
   // fl(lower - separation) <= d_hat + slack, rounded up, holds wherever the exact distance is below d_hat
   // plus the separation: `lower` is no larger, and rounding is monotonic.
-  void look(IdPair ids) {
+  void add_if_close(IdPair ids) {
     ClosePair p;
     static_cast<Pair&>(p) = {kind, ids.a, ids.b, pair_vertices(in.mesh.data(), kind, ids)};
     const double* x[4];
@@ -53,7 +53,7 @@ struct Task {
   }
   static void consume(void* context, const IdPair* pairs, std::size_t count) {
     auto& task = *static_cast<Task*>(context);
-    for (std::size_t i = 0; i < count; ++i) task.look(pairs[i]);
+    for (std::size_t i = 0; i < count; ++i) task.add_if_close(pairs[i]);
   }
 };
 

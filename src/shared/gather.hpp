@@ -20,15 +20,15 @@ struct Gathered {
   bool too_many = false;     // more than were to be kept: `found` is empty, and not all pairs were looked at
 };
 
-// look(kind, pairs, count, found) appends to `found`, from any thread. Keeps `most` at most; a spent budget
+// visit(kind, pairs, count, found) appends to `found`, from any thread. Keeps `most` at most; a spent budget
 // ends it early, with what was found until then.
-template <class Found, class Look>
+template <class Found, class Visit>
 Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kinds, std::size_t most,
-                       Budget& budget, const Look& look) {
+                       Budget& budget, const Visit& visit) {
   constexpr std::size_t kBlocksATask = 4;
   struct Task {
     PairKind kind;
-    const Look& look;
+    const Visit& visit;
     std::size_t most;
     Budget& budget;
     std::atomic<bool>& too_many;
@@ -37,7 +37,7 @@ Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kin
     static void consume(void* context, const IdPair* batch, std::size_t count) {
       auto& task = *static_cast<Task*>(context);
       if (task.too_many || task.budget.spent()) return;
-      task.look(task.kind, batch, count, task.found);
+      task.visit(task.kind, batch, count, task.found);
       if (task.found.size() > task.most) task.too_many = true;
     }
   };
@@ -50,7 +50,7 @@ Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kin
   for (const PairKind kind : kinds)
     parallel_ranges(pairs.blocks(kind), kBlocksATask, [&](std::size_t first, std::size_t last) {
       if (too_many || budget.spent()) return;
-      Task task{kind, look, most, budget, too_many, {}};
+      Task task{kind, visit, most, budget, too_many, {}};
       pairs.traverse(kind, first, last, {&task, &Task::consume});
       budget.advance(last - first);
       const std::lock_guard<std::mutex> lock(mutex);

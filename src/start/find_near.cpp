@@ -33,7 +33,7 @@ class Near {
 
   // find_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as
   // much; but for what is welded.
-  void look(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
+  void add_near(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     for (const ClosePair& p : find_close(Batch(kind, pairs, count), {mesh_, x_.data(), 0, 0, options_})) {
       const double* x[4];
       for (std::size_t i = 0; i < 4; ++i) x[i] = motion_.t0(p.vertices[i]);
@@ -63,7 +63,7 @@ Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& 
   const Near near(mesh, rest.motion, options);
   auto all = gather<NearPair>(*rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
                               [&](PairKind kind, const IdPair* pairs, std::size_t count,
-                                  std::vector<NearPair>& found) { near.look(kind, pairs, count, found); });
+                                  std::vector<NearPair>& found) { near.add_near(kind, pairs, count, found); });
   const auto order = [](const NearPair& p) {
     return std::array<int, 3>{int(p.pair.kind), p.pair.a, p.pair.b};
   };

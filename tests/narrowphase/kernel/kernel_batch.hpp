@@ -78,17 +78,4 @@ class KernelBatch {
   std::vector<double> separation_;
 };
 
-// The kernels of one kind of pair.
-struct KernelsOfKind {
-  decltype(KernelTable::cull_vertex_face) cull;
-  decltype(KernelTable::advance_vertex_face) advance;
-  decltype(KernelTable::frames_vertex_face) frames;
-  decltype(KernelTable::look_vertex_face) look;
-};
-inline KernelsOfKind of_kind(const KernelTable& table, PairKind kind) {
-  if (kind == PairKind::vertex_face)
-    return {table.cull_vertex_face, table.advance_vertex_face, table.frames_vertex_face, table.look_vertex_face};
-  return {table.cull_edge_edge, table.advance_edge_edge, table.frames_edge_edge, table.look_edge_edge};
-}
-
 }  // namespace onset::tests

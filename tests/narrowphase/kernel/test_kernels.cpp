@@ -28,14 +28,14 @@ bool same(const KernelResult& a, const KernelResult& b) {
 
 std::vector<int> culled(const KernelTable& table, PairKind kind, const KernelPairs& pairs) {
   std::vector<int> survivors(std::size_t(pairs.count) + 1);
-  survivors.resize(std::size_t(of_kind(table, kind).cull(pairs, survivors.data())));
+  survivors.resize(std::size_t(table.of_kind[int(kind)].cull(pairs, survivors.data())));
   return survivors;
 }
 
 std::vector<KernelResult> advanced(const KernelTable& table, PairKind kind, const KernelPairs& pairs,
                                    const std::vector<int>& subset, const KernelResume* resume = nullptr) {
   std::vector<KernelResult> results(subset.size());
-  of_kind(table, kind).advance(pairs, subset.data(), int(subset.size()), resume, results.data());
+  table.of_kind[int(kind)].advance(pairs, subset.data(), int(subset.size()), resume, results.data());
   return results;
 }
 
@@ -65,9 +65,9 @@ std::vector<KernelResume> resumed(const std::vector<KernelResult>& results) {
 void compare_frames(const KernelBatch& batch, const KernelPairs& pairs, const std::vector<KernelResult>& at) {
   std::vector<double> t;
   for (const KernelResult& r : at) t.push_back(std::min(r.t, 1.0));
-  std::vector<KernelFrame> a(t.size()), b(t.size());
-  of_kind(scalar_kernels(), batch.kind()).frames(pairs, t.data(), a.data());
-  of_kind(avx2_kernels(), batch.kind()).frames(pairs, t.data(), b.data());
+  std::vector<KernelContact> a(t.size()), b(t.size());
+  scalar_kernels().of_kind[int(batch.kind())].contact_geometry(pairs, t.data(), a.data());
+  avx2_kernels().of_kind[int(batch.kind())].contact_geometry(pairs, t.data(), b.data());
   for (std::size_t i = 0; i < t.size(); ++i) {
     bool equal = a[i].ordinary == b[i].ordinary;
     if (a[i].ordinary) {
@@ -93,8 +93,8 @@ void compare_copies(const KernelBatch& batch, const KernelPairs& pairs) {
   compare_frames(batch, pairs, a);
   for (int row = 0; row < pairs.count; ++row) {
     double v[3], w[3];
-    of_kind(one, batch.kind()).look(pairs, row, a[std::size_t(row)].t, v);
-    of_kind(other, batch.kind()).look(pairs, row, a[std::size_t(row)].t, w);
+    one.of_kind[int(batch.kind())].closest_direction(pairs, row, a[std::size_t(row)].t, v);
+    other.of_kind[int(batch.kind())].closest_direction(pairs, row, a[std::size_t(row)].t, w);
     for (int i = 0; i < 3; ++i)
       if (!same(v[i], w[i])) FAIL_CHECK("directions differ");
   }
