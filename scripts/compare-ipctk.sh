@@ -9,7 +9,7 @@ venv="$build/venv-ipctk"
 
 "$root/scripts/install-packages.sh" library apps peers
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
-[ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DONSET_BUILD_TESTS=OFF
+cmake -S "$root" -B "$build" -DONSET_BUILD_APPS=ON
 cmake --build "$build" --target onset_bench_server onset_broad_phase_peers --parallel "$(nproc)"
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 "$venv/bin/python" -c 'import ipctk; assert ipctk.__version__ == "1.6.1"' 2>/dev/null ||

@@ -4,7 +4,6 @@ set -eu
 cd "$(dirname "$0")/.."
 scripts/install-packages.sh library apps
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
-# Tests need more packages: off, unless this build folder already has them.
-[ -f build/CMakeCache.txt ] || cmake -S . -B build -DONSET_BUILD_TESTS=OFF
+cmake -S . -B build -DONSET_BUILD_APPS=ON
 cmake --build build --target onset_cli --parallel "$(nproc)"
 build/apps/onset demo "$@"

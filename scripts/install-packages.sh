@@ -5,7 +5,7 @@ set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
 apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
-tests="catch2 libboost-dev libgmp-dev libfcl-dev pkg-config python3 python3-venv ca-certificates"
+tests="catch2 nlohmann-json3-dev libboost-dev libgmp-dev libfcl-dev git pkg-config python3 python3-venv ca-certificates"
 peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
 clang="clang libclang-rt-dev"
 profile="linux-perf valgrind"

@@ -26,7 +26,7 @@ fi
 "$root/scripts/install-packages.sh" library apps peers
 { command -v perf && command -v valgrind; } >/dev/null || "$root/scripts/install-packages.sh" profile
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
-[ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DONSET_BUILD_TESTS=OFF -DONSET_BUILD_APPS=ON >&2
+cmake -S "$root" -B "$build" -DONSET_BUILD_APPS=ON >&2
 cmake --build "$build" --parallel "$(nproc)" \
   --target onset_cli onset_bench_server onset_broad_phase_peers onset_baselines onset_memory_bandwidth >&2
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"

@@ -14,7 +14,7 @@ sample=3000 count=12 repeats=9 seconds=4 every=2
 
 "$root/scripts/install-packages.sh" library apps tests
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
-[ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DONSET_BUILD_TESTS=ON -DONSET_BUILD_APPS=ON >&2
+cmake -S "$root" -B "$build" -DONSET_BUILD_TESTS=ON -DONSET_BUILD_APPS=ON >&2
 cmake --build "$build" --parallel "$(nproc)" \
   --target onset_cli onset_baselines onset_recorded_queries onset_stability_queries >&2
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"

@@ -3,7 +3,7 @@
 #   consumer.sh MODE SOURCE BUILD WORK PROGRAM
 # MODE installed: BUILD, as it is, installed; shared: a shared library, built, installed and then moved elsewhere; subdirectory:
 # the source tree inside a project with flags and a standard of its own. PROGRAM prints what every one of them must print.
-# The environment gives CMAKE, CMAKE_GENERATOR, CXX, and LAUNCHER (ccache or nothing). WORK is emptied first.
+# The environment gives CMAKE, CMAKE_GENERATOR, CONFIG (of BUILD), CXX, and LAUNCHER (ccache or nothing). WORK is emptied first.
 set -eu
 mode=$1 source=$2 build=$3 work=$4 program=$5
 app=$source/tests/consumer/app
@@ -35,7 +35,7 @@ check() {  # name program
 }
 
 installed() {
-  "$CMAKE" --install "$build" --prefix "$work/prefix" >/dev/null
+  "$CMAKE" --install "$build" ${CONFIG:+--config "$CONFIG"} --prefix "$work/prefix" >/dev/null
   found=-DCMAKE_PREFIX_PATH=$work/prefix
   consume plain "$found" -DCMAKE_BUILD_TYPE=Release
   consume user_flags "$found" "-DCMAKE_CXX_FLAGS=$user_flags"
