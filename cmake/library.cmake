@@ -13,6 +13,15 @@ target_include_directories(onset PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/
 target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE TBB::tbb $<BUILD_INTERFACE:Boost::boost>)
 target_compile_options(onset PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off -fno-fast-math -Wall -Wextra>)
 
+# Inside a project without a build type nothing would be optimised, and nobody have asked for that. Where the project has a -O
+# of its own, that holds.
+get_directory_property(onset_directory_options COMPILE_OPTIONS)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES
+   AND NOT "${CMAKE_CXX_FLAGS} ${onset_directory_options}" MATCHES "(^|[ ;])-O")
+  target_compile_options(onset PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O2>)
+  message(STATUS "onset: CMAKE_BUILD_TYPE is not set; the library is compiled with -O2, the rest of ${CMAKE_PROJECT_NAME} is not")
+endif()
+
 # Tests see the rooms inside, which a shared library hides: for them the same objects in a static one.
 if(ONSET_BUILD_TESTS AND BUILD_SHARED_LIBS)
   get_target_property(onset_sources onset SOURCES)

@@ -24,7 +24,7 @@ class OutsideTest(unittest.TestCase):
     """Each test has a folder of its own in WORK, emptied first."""
 
     def setUp(self):
-        self.work = pathlib.Path(os.environ["WORK"]) / self._testMethodName
+        self.work = pathlib.Path(os.environ["WORK"]) / type(self).__name__ / self._testMethodName
         shutil.rmtree(self.work, ignore_errors=True)
         self.work.mkdir(parents=True)
 

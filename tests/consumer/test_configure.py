@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import unittest
 
 from support import CMAKE, SOURCE, OutsideTest, environment
@@ -10,6 +11,15 @@ from support import CMAKE, SOURCE, OutsideTest, environment
 FOR_TESTS = ("Catch2", "fcl")
 FOR_APPS = ("CLI11",)
 with_apps = unittest.skipIf(os.environ.get("APPS") == "0", "what the apps need is not known to be here")
+with_ninja = unittest.skipUnless(shutil.which("ninja"), "no ninja")
+PARENT = f"""cmake_minimum_required(VERSION 3.22)
+project(parent LANGUAGES CXX)
+include(settings.cmake)
+add_subdirectory({SOURCE} onset)
+message(STATUS "parent: '${{CMAKE_BUILD_TYPE}}' '${{CMAKE_CXX_FLAGS}}' '${{CMAKE_CONFIGURATION_TYPES}}'")
+add_executable(simulator main.cpp)
+target_link_libraries(simulator PRIVATE onset::onset)
+"""
 
 
 def without(*packages):
@@ -26,18 +36,20 @@ class ConfigureTest(OutsideTest):
         self.assertEqual(code != 0, status != 0, said)
         return " ".join(said.split())
 
-    def sources(self):
-        """The sources that the build compiles, each with its command."""
+    def sources(self, configuration=""):
+        """The sources that the build compiles, each with its command; of one of several configurations, where it is named."""
         compiled = json.loads((self.build / "compile_commands.json").read_text())
-        return {entry["file"]: entry["command"] for entry in compiled}
+        return {entry["file"]: entry["command"] for entry in compiled if f".dir/{configuration}" in entry["command"]}
 
     def folders(self):
         """The top folders of onset that sources are compiled of."""
         return {name[len(f"{SOURCE}/"):].split("/")[0] for name in self.sources() if name.startswith(f"{SOURCE}/")}
 
-    def library(self):
+    def library(self, configuration=""):
         """The commands that compile sources of the library."""
-        return [command for name, command in self.sources().items() if name.startswith(f"{SOURCE}/src/")]
+        commands = [command for name, command in self.sources(configuration).items() if name.startswith(f"{SOURCE}/src/")]
+        self.assertTrue(commands)
+        return commands
 
     def cached(self):
         """What the cache holds, by name."""
@@ -50,7 +62,7 @@ class TopLevel(ConfigureTest):
         self.assertIn("onset: tests are left out, not found: Catch2, fcl (Debian, Ubuntu: apt-get install catch2 libfcl-dev)", said)
         self.assertIn("onset: apps are left out, not found: CLI11 (Debian, Ubuntu: apt-get install libcli11-dev)", said)
         self.assertNotIn("Warning", said)
-        self.assertTrue(self.library())
+        self.assertIn("src", self.folders())
         self.assertFalse(self.folders() & {"tests", "apps"})
 
     @with_apps
@@ -86,6 +98,75 @@ class TopLevel(ConfigureTest):
         for name, package in (("Eigen3", "libeigen3-dev"), ("TBB", "libtbb-dev"), ("Boost", "libboost-dev")):
             said = self.configure("-UCMAKE_DISABLE_FIND_PACKAGE_*", *without(name), status=1)
             self.assertIn(f"apt-get install {package}", said)
+
+    def test_it_is_optimised_unless_asked_otherwise(self):
+        self.configure(*without(*FOR_TESTS, *FOR_APPS))
+        self.assertEqual(self.cached()["CMAKE_BUILD_TYPE"], "Release")
+        self.configure("-DCMAKE_BUILD_TYPE=Debug")
+        self.assertEqual(self.cached()["CMAKE_BUILD_TYPE"], "Debug")
+        for command in self.library():
+            self.assertNotIn(" -O", command)
+
+    @with_ninja
+    def test_several_configurations(self):
+        self.configure(*without(*FOR_TESTS, *FOR_APPS), CMAKE_GENERATOR="Ninja Multi-Config")
+        self.assertEqual(self.cached()["CMAKE_DEFAULT_BUILD_TYPE"], "Release")
+        self.assertEqual(self.cached().get("CMAKE_BUILD_TYPE", ""), "")
+        self.assertIn("impl-Release.ninja", (self.build / "build.ninja").read_text())
+        self.assertTrue(all(" -O3 " in command for command in self.library("Release/")))
+        self.assertFalse(any(" -O" in command for command in self.library("Debug/")))
+
+
+class Subdirectory(ConfigureTest):
+    def parent(self, *options, settings="", **env):
+        """What the configuration of a project says that has onset as a subdirectory."""
+        (self.work / "CMakeLists.txt").write_text(PARENT)
+        (self.work / "settings.cmake").write_text(settings)
+        (self.work / "main.cpp").write_text("int main() {}\n")
+        return self.configure(*options, source=self.work, **env)
+
+    def optimisation(self):
+        """The -O flags of the library's sources, and of the project's own."""
+        def flags(command):
+            return re.findall(r" (-O\w*)", command)
+        library = {tuple(flags(command)) for command in self.library()}
+        self.assertEqual(len(library), 1)
+        return list(library.pop()), flags(self.sources()[str(self.work / "main.cpp")])
+
+    def test_only_the_library(self):
+        said = self.parent()
+        self.assertFalse(self.folders() & {"tests", "apps"})
+        self.assertNotIn("left out", said)
+        self.assertEqual(self.cached()["ONSET_INSTALL"], "OFF")
+        self.assertNotIn("include/onset", (self.build / "onset/cmake_install.cmake").read_text())
+
+    def test_parts_can_be_asked_for(self):
+        self.parent("-DONSET_BUILD_TESTS=ON", "-DONSET_INSTALL=ON")
+        self.assertIn("tests", self.folders())
+        self.assertIn("include/onset", (self.build / "onset/cmake_install.cmake").read_text())
+
+    def test_without_a_build_type_the_library_is_optimised(self):
+        said = self.parent()
+        self.assertIn("onset: CMAKE_BUILD_TYPE is not set; the library is compiled with -O2, the rest of parent is not", said)
+        self.assertIn("parent: '' '' ''", said)
+        self.assertEqual(self.optimisation(), (["-O2"], []))
+
+    def test_what_the_project_chose_holds(self):
+        silent = "CMAKE_BUILD_TYPE is not set"
+        self.assertNotIn(silent, self.parent("-DCMAKE_BUILD_TYPE=Debug"))
+        self.assertEqual(self.optimisation(), ([], []))
+        self.assertNotIn(silent, self.parent("-DCMAKE_BUILD_TYPE=", "-DCMAKE_CXX_FLAGS=-g -O0"))
+        self.assertEqual(self.optimisation(), (["-O0"], ["-O0"]))
+        self.assertNotIn(silent, self.parent("-DCMAKE_CXX_FLAGS=", settings="add_compile_options(-Og)"))
+        self.assertEqual(self.optimisation(), (["-Og"], ["-Og"]))
+
+    @with_ninja
+    def test_several_configurations(self):
+        said = self.parent(CMAKE_GENERATOR="Ninja Multi-Config")
+        self.assertNotIn("CMAKE_BUILD_TYPE is not set", said)
+        self.assertNotIn("CMAKE_DEFAULT_BUILD_TYPE", self.cached())
+        self.assertTrue(all(" -O3 " in command and " -O2 " not in command for command in self.library("Release/")))
+        self.assertFalse(any(" -O" in command for command in self.library("Debug/")))
 
 
 if __name__ == "__main__":
