@@ -10,6 +10,7 @@ install(TARGETS onset EXPORT onsetTargets
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY include/onset DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/onset)
 install(EXPORT onsetTargets NAMESPACE onset:: DESTINATION ${onset_cmake_dir})
 
 # TBB is private: only who links the static library has to find it.

@@ -36,6 +36,7 @@ check() {  # name program
 
 installed() {
   "$CMAKE" --install "$build" ${CONFIG:+--config "$CONFIG"} --prefix "$work/prefix" >/dev/null
+  cmp "$source/LICENSE" "$work/prefix/share/doc/onset/LICENSE"
   found=-DCMAKE_PREFIX_PATH=$work/prefix
   consume plain "$found" -DCMAKE_BUILD_TYPE=Release
   consume user_flags "$found" "-DCMAKE_CXX_FLAGS=$user_flags"
