@@ -6,9 +6,7 @@ cd "$(dirname "$0")/.."
 scripts/install-packages.sh library tests clang
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
 
-cmake -S . -B build/checked -DONSET_BUILD_APPS=OFF -DONSET_BUILD_TESTS=ON \
-  -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
-  "-DCMAKE_CXX_FLAGS=-O1 -Werror -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all -D_GLIBCXX_ASSERTIONS"
+cmake --preset checked
 cmake --build build/checked --parallel "$(nproc)"
 
 # Real data is for optimised builds, as are tests labelled long; those labelled outside build for themselves.

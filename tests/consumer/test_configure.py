@@ -10,6 +10,7 @@ from support import CMAKE, SOURCE, OutsideTest, environment
 
 FOR_TESTS = ("Catch2", "fcl")
 FOR_APPS = ("CLI11",)
+PRESETS = ("release", "debug", "dev", "checked")
 with_apps = unittest.skipIf(os.environ.get("APPS") == "0", "what the apps need is not known to be here")
 with_ninja = unittest.skipUnless(shutil.which("ninja"), "no ninja")
 PARENT = f"""cmake_minimum_required(VERSION 3.22)
@@ -115,6 +116,21 @@ class TopLevel(ConfigureTest):
         self.assertIn("impl-Release.ninja", (self.build / "build.ninja").read_text())
         self.assertTrue(all(" -O3 " in command for command in self.library("Release/")))
         self.assertFalse(any(" -O" in command for command in self.library("Debug/")))
+
+    def test_presets_are_listed(self):
+        for kind, names in (("configure", PRESETS), ("build", PRESETS), ("test", ("dev", "checked"))):
+            status, said = self.run_command(CMAKE, f"--list-presets={kind}", cwd=SOURCE)
+            self.assertEqual(status, 0, said)
+            self.assertEqual(re.findall(r'^ *"(\w+)"', said, re.MULTILINE), list(names))
+
+    def test_presets_build_what_they_say(self):
+        for name, build_type, folders in (("release", "Release", set()), ("debug", "Debug", set()),
+                                          ("dev", "Release", {"tests", "apps"})):
+            if folders and os.environ.get("APPS") == "0":
+                continue
+            self.configure("--preset", name)
+            self.assertEqual(self.cached()["CMAKE_BUILD_TYPE"], build_type)
+            self.assertEqual({"tests", "apps"} & self.folders(), folders)
 
 
 class Subdirectory(ConfigureTest):
