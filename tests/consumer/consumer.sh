@@ -1,11 +1,11 @@
 #!/bin/sh
 # Builds and runs the project in app/ against onset as an outside user would.
-#   consumer.sh MODE SOURCE BUILD WORK PROGRAM
-# MODE installed: BUILD, as it is, installed; shared: a shared library, built, installed and then moved elsewhere; subdirectory:
-# the source tree inside a project with flags and a standard of its own. PROGRAM prints what every one of them must print.
-# The environment gives CMAKE, CMAKE_GENERATOR, CONFIG (of BUILD), CXX, and LAUNCHER (ccache or nothing). WORK is emptied first.
+#   consumer.sh MODE SOURCE FROM WORK PROGRAM
+# MODE installed: the build FROM, as it is, installed; shared: a shared library, installed in FROM and moved from there.
+# PROGRAM prints what every one of them must print.
+# The environment gives CMAKE, CMAKE_GENERATOR, CONFIG (of a build), CXX, and LAUNCHER (ccache or nothing). WORK is emptied first.
 set -eu
-mode=$1 source=$2 build=$3 work=$4 program=$5
+mode=$1 source=$2 from=$3 work=$4 program=$5
 app=$source/tests/consumer/app
 user_flags="-O3 -march=native -ffast-math"
 strict="-Wall -Wextra -Werror -pedantic"
@@ -13,17 +13,17 @@ rm -rf "$work"
 mkdir -p "$work"
 export CMAKE_BUILD_PARALLEL_LEVEL=2
 
-configure() {  # source build [options...]
-  from=$1 into=$2
-  shift 2
-  "$CMAKE" -S "$from" -B "$into" -DCMAKE_CXX_COMPILER="$CXX" -DCMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER" "$@" >"$into.log"
+configure() {  # build [options...]
+  into=$1
+  shift
+  "$CMAKE" -S "$app" -B "$into" -DCMAKE_CXX_COMPILER="$CXX" -DCMAKE_CXX_COMPILER_LAUNCHER="$LAUNCHER" "$@" >"$into.log"
 }
 
 # Builds the outside project, runs it, and compares what it prints with what it should.
 consume() {  # name [options...]
   name=$1
   shift
-  configure "$app" "$work/$name" "$@" || { cat "$work/$name.log"; return 1; }
+  configure "$work/$name" "$@" || { cat "$work/$name.log"; return 1; }
   "$CMAKE" --build "$work/$name" >"$work/$name.log" || { cat "$work/$name.log"; return 1; }
   check "$name" "$work/$name/consumer"
 }
@@ -35,7 +35,7 @@ check() {  # name program
 }
 
 installed() {
-  "$CMAKE" --install "$build" ${CONFIG:+--config "$CONFIG"} --prefix "$work/prefix" >/dev/null
+  "$CMAKE" --install "$from" ${CONFIG:+--config "$CONFIG"} --prefix "$work/prefix" >/dev/null
   cmp "$source/LICENSE" "$work/prefix/share/doc/onset/LICENSE"
   found=-DCMAKE_PREFIX_PATH=$work/prefix
   consume plain "$found" -DCMAKE_BUILD_TYPE=Release
@@ -54,11 +54,7 @@ with_pkg_config() {
 }
 
 shared() {
-  configure "$source" "$work/build" -DBUILD_SHARED_LIBS=ON -DONSET_BUILD_TESTS=OFF -DONSET_BUILD_APPS=OFF \
-    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1  # sooner built, and it must print the same
-  "$CMAKE" --build "$work/build" >"$work/build.log" || { cat "$work/build.log"; return 1; }
-  "$CMAKE" --install "$work/build" --prefix "$work/first_prefix" >/dev/null
-  mv "$work/first_prefix" "$work/prefix"
+  mv "$from" "$work/prefix"
   consume plain "-DCMAKE_PREFIX_PATH=$work/prefix" -DCMAKE_BUILD_TYPE=Release
   consume user_flags "-DCMAKE_PREFIX_PATH=$work/prefix" "-DCMAKE_CXX_FLAGS=$user_flags"
   with_pkg_config
@@ -79,11 +75,6 @@ shows_only_onset() {
     return 1
   fi
   echo "shared, symbols: ok"
-}
-
-subdirectory() {
-  consume user_flags_cxx20 "-DONSET_SOURCE_DIR=$source" "-DCMAKE_CXX_FLAGS=$user_flags" -DCMAKE_CXX_STANDARD=20 \
-    -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -fexpensive-optimizations -DNDEBUG"  # sooner built, and GCC fuses
 }
 
 "$program" >"$work/expected.txt"

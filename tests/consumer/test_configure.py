@@ -132,6 +132,14 @@ class TopLevel(ConfigureTest):
             self.assertEqual(self.cached()["CMAKE_BUILD_TYPE"], build_type)
             self.assertEqual({"tests", "apps"} & self.folders(), folders)
 
+    def test_every_option_is_documented(self):
+        self.configure(*without(*FOR_TESTS, *FOR_APPS))
+        document = (SOURCE / "docs/building.md").read_text()
+        options = [name for name in self.cached() if name.startswith(("ONSET_BUILD_", "ONSET_INSTALL", "BUILD_SHARED"))]
+        self.assertGreaterEqual(len(options), 4)
+        for name in options:
+            self.assertIn(f"| `{name}` |", document)
+
 
 class Subdirectory(ConfigureTest):
     def parent(self, *options, settings="", **env):
