@@ -1,21 +1,21 @@
 // Lanes of numbers, as the kernels see them: F8 (eight floats) and D4 (four doubles), each with its mask.
 //
-// A kernel text includes this inside a translation unit that defines ONSET_KERNEL as its namespace; with AVX2 enabled there
+// A kernel text includes this inside a translation unit that defines ONSET_ISA as its namespace; with AVX2 enabled there
 // the packs are registers, else plain arrays. Both give the same bits for every input: only IEEE + - * / sqrt, comparisons
 // and bit operations are used, min and max are `a < b ? a : b` and `a > b ? a : b` (the second operand wins on NaN or
-// equality, as vminpd does), and nothing is contracted (-ffp-contract=off). Never include it where ONSET_KERNEL could be
+// equality, as vminpd does), and nothing is contracted (-ffp-contract=off). Never include it where ONSET_ISA could be
 // shared by two instruction sets: the linker would keep one copy of each inline function.
 #pragma once
 
-#ifndef ONSET_KERNEL
-#error "define ONSET_KERNEL, the namespace of this instruction set's copy, before including base/pack.hpp"
+#ifndef ONSET_ISA
+#error "define ONSET_ISA, the namespace of this instruction set's copy, before including base/pack.hpp"
 #endif
 
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
-namespace onset::ONSET_KERNEL {
+namespace onset::ONSET_ISA {
 
 #if defined(__AVX2__)
 
@@ -243,4 +243,4 @@ inline V lerp(V a, V b, V t) {
   return (V::all(1) - t) * a + t * b;
 }
 
-}  // namespace onset::ONSET_KERNEL
+}  // namespace onset::ONSET_ISA

@@ -1,6 +1,6 @@
 // Eight floats or eight ints side by side, for kernels whose text is compiled once per instruction set.
 //
-// Include it from a kernel's own translation unit after defining ONSET_KERNEL, and __AVX2__ where that
+// Include it from a kernel's own translation unit after defining ONSET_ISA, and __AVX2__ where that
 // unit is compiled for AVX2. Everything has internal linkage, so that no copy compiled for AVX2 is ever
 // shared.
 #pragma once
@@ -10,7 +10,7 @@
 #endif
 
 namespace onset {
-namespace ONSET_KERNEL {
+namespace ONSET_ISA {
 namespace {
 
 constexpr int kLanes = 8;
@@ -214,5 +214,5 @@ __attribute__((always_inline)) inline void transpose(F8* x) {
 #endif
 
 }  // namespace
-}  // namespace ONSET_KERNEL
+}  // namespace ONSET_ISA
 }  // namespace onset

@@ -21,7 +21,7 @@ struct BroadPhaseInput {
       0;  // every primitive is widened by this, plus the largest thickness of its vertices, rounded outward
   double t_max = 1;  // only the motion on [0, t_max] matters; t_max 1 means the exact end positions
   BoxTest test = BoxTest::both_ends;
-  Kernel kernel = Kernel::automatic;
+  InstructionSet instruction_set = InstructionSet::automatic;
   // For primitives all of whose vertices are static, in place of `inflation`; < 0: the same. Their boxes are
   // kept with the mesh from call to call as long as this stays what it was.
   double static_inflation = -1;

@@ -7,10 +7,10 @@
 namespace onset {
 
 bool NarrowPhase::uses_exact(const Case& c) const {
-  return in_.options.certainty != CertaintyLevel::conservative && c.separation() == 0;
+  return in_.options.exactness != Exactness::conservative && c.separation() == 0;
 }
 bool NarrowPhase::decides_completely(const Case& c) const {
-  return uses_exact(c) && in_.options.certainty == CertaintyLevel::exact;
+  return uses_exact(c) && in_.options.exactness == Exactness::exact;
 }
 
 ExactPair NarrowPhase::exact_pair_of(const Case& c) const { return exact_pair(c.kind, in_.motion, c.vertices()); }
@@ -64,7 +64,7 @@ void NarrowPhase::sharpen(PairKind kind, PairResult& result) const {
 // Whether a point of each primitive is known, at a time from found.t on, that are no farther apart than the
 // separation.
 bool NarrowPhase::seen_within_separation(const Case& c, const KernelResult& found) const {
-  if (in_.options.certainty != CertaintyLevel::exact) return false;
+  if (in_.options.exactness != Exactness::exact) return false;
   const double d = c.input.separation[c.row] / found.unit;
   if (d == 0) return false;
   for (double ahead = 0x1p-20; ahead <= 1; ahead *= 4)

@@ -68,7 +68,7 @@ void NarrowPhaseStats::note_outcome(const PairResult& r) {
 
 NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
     : in_(input),
-      kernels_(&kernels_for(input.options.kernel)),
+      kernels_(&kernels_for(input.options.instruction_set)),
       scale_(power_of_two_near_one_over(input.extent)) {
   if (input.for_many) rounded_ = round_positions(input.motion, scale_);
 }
@@ -156,7 +156,7 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   advance(kind, input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());
   if (in_.stored) {
     advance_exactly(kind, input, survivors, scratch);
-  } else if (in_.options.certainty != CertaintyLevel::conservative) {
+  } else if (in_.options.exactness != Exactness::conservative) {
     certify(kind, input, scratch.survivors.data(), survivors, scratch.results.data());
   }
   scratch.stats.candidates += std::int64_t(count);

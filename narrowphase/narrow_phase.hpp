@@ -28,7 +28,7 @@ struct NarrowPhaseInput {
   double tolerance;  // model length, > 0
   double extent;     // the largest corner difference in the scene, about
   const Options& options;
-  bool exact_times = false;  // CertaintyLevel::exact: toi and toi_hi of every contact are adjacent doubles
+  bool exact_times = false;  // Exactness::exact: toi and toi_hi of every contact are adjacent doubles
   bool for_many = false;     // pairs: worth a pass over all vertices first
   // Steps whose end is stored in doubles: results have a stored_limit. `gap_share`: share of each pair's initial gap beyond its
   // separation that it must keep as well, in [0, 1). `rounding`: rounding_of_distances(motion).
@@ -99,11 +99,11 @@ class NarrowPhase {
   void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
             std::vector<IdPair>& out) const;
   bool uses_t_max() const;
-  // Gives a contact of this pair, found at CertaintyLevel::exact, its exact time: adjacent doubles toi and
+  // Gives a contact of this pair, found at Exactness::exact, its exact time: adjacent doubles toi and
   // toi_hi.
   void sharpen(PairKind kind, PairResult& result) const;
-  bool times_are_exact() const { return in_.exact_times && in_.options.certainty == CertaintyLevel::exact; }
-  const char* kernel_name() const { return kernels_->name; }
+  bool times_are_exact() const { return in_.exact_times && in_.options.exactness == Exactness::exact; }
+  const char* to_string() const { return kernels_->name; }
 
  private:
   struct Case {  // one pair of a batch

@@ -34,7 +34,7 @@ void NarrowPhase::decide(const Case& c, NarrowPhaseStats& stats, std::vector<Pai
   KernelResult r;
   advance(c, nullptr, r);
   if (r.verdict == Verdict::free) return;
-  if (in_.options.certainty != CertaintyLevel::conservative) certify(c.kind, c.input, &c.row, 1, &r);
+  if (in_.options.exactness != Exactness::conservative) certify(c.kind, c.input, &c.row, 1, &r);
   if (in_.options.narrow_phase == NarrowPhaseMethod::inclusion) r.checks = 0;
   stats.checks += r.checks;
   finish(c, r, 0, stats, out);

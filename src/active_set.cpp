@@ -49,7 +49,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);
     if (budget.outcome() != Outcome::free) set.stats.looked_at = budget.done();
-    fill_rows(mesh, scene.motion, options.kernel, traversal.found, set);
+    fill_rows(mesh, scene.motion, options.instruction_set, traversal.found, set);
     if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
     set.stats.seconds_total = scene.clock.seconds();
     set.stats.seconds_contacts = set.stats.seconds_total - begun;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/clock.hpp"
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "narrowphase/at_rest/edge_face.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/start/places.hpp"
@@ -107,7 +107,7 @@ void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& 
 
 StartReport check(const Mesh& mesh, const Positions& x, const Options& options) {
   check(options);
-  resolve_kernel(options.kernel);
+  resolve_instruction_set(options.instruction_set);
   StartReport report;
   in_arena(options.threads, [&] {
     const Clock clock;

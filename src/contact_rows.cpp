@@ -25,7 +25,7 @@ void fill_row(const Mesh& mesh, const FoundPair& f, std::size_t i, ActiveSet& se
 }
 
 // Rows [first, last) are of one kind, and at most kRowsAtOnce.
-void fill_frames(const Motion& motion, Kernel kernel, std::size_t first, std::size_t last, ActiveSet& set) {
+void fill_frames(const Motion& motion, InstructionSet kernel, std::size_t first, std::size_t last, ActiveSet& set) {
   ContactGeometry frames[kRowsAtOnce];
   bool parting[kRowsAtOnce] = {};
   for (std::size_t i = first; i < last; ++i)
@@ -41,7 +41,7 @@ void fill_frames(const Motion& motion, Kernel kernel, std::size_t first, std::si
 
 }  // namespace
 
-void fill_rows(const Mesh& mesh, const Motion& motion, Kernel kernel, const std::vector<FoundPair>& found,
+void fill_rows(const Mesh& mesh, const Motion& motion, InstructionSet kernel, const std::vector<FoundPair>& found,
                ActiveSet& set) {
   const auto of_faces = std::partition_point(
       found.begin(), found.end(), [](const FoundPair& f) { return f.kind == PairKind::vertex_face; });

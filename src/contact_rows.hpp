@@ -9,7 +9,7 @@
 namespace onset {
 
 // Row i of `set` is found[i]; counts the contacts of each kind.
-void fill_rows(const Mesh& mesh, const Motion& motion, Kernel kernel, const std::vector<FoundPair>& found,
+void fill_rows(const Mesh& mesh, const Motion& motion, InstructionSet kernel, const std::vector<FoundPair>& found,
                ActiveSet& set);
 
 }  // namespace onset

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/clock.hpp"
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "narrowphase/at_rest/edge_face.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/start/rest_pairs.hpp"
@@ -36,7 +36,7 @@ void add_if_common(const MeshData& mesh, const Motion& motion, IdPair ids, std::
 // 0: only whether there is any.
 Intersections find(const Mesh& mesh, const Positions& x, const Options& options, std::size_t most) {
   check(options);
-  resolve_kernel(options.kernel);
+  resolve_instruction_set(options.instruction_set);
   Intersections r;
   in_arena(options.threads, [&] {
     const Clock clock;

@@ -46,7 +46,7 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
     for (const auto& corner : end)
       for (const double x : corner) largest = std::max(largest, std::fabs(x));
   const double extent = largest * corners.unit;
-  const bool exact_times = options.certainty == CertaintyLevel::exact;
+  const bool exact_times = options.exactness == Exactness::exact;
   const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, extent), extent, options, exact_times});
   NarrowPhaseScratch scratch;
   std::vector<PairResult> found;

@@ -56,7 +56,7 @@ std::vector<NamedFinder> library(const Settings& s) {
   if (!s.tolerance) {
     onset::Options fine = options, exact = options;
     fine.relative_tolerance = 1e-12;
-    exact.certainty = onset::CertaintyLevel::exact;
+    exact.exactness = onset::Exactness::exact;
     all.push_back({"onset, 1e-12", onset_with(fine)});
     all.push_back({"onset, exact", onset_with(exact)});
   }

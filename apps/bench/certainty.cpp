@@ -1,4 +1,4 @@
-// What certainty costs: the active set of recorded steps at each CertaintyLevel, in one process, in turn.
+// What certainty costs: the active set of recorded steps at each Exactness, in one process, in turn.
 //
 //   onset_certainty_bench A B [A B ...]
 //
@@ -18,8 +18,8 @@
 namespace {
 
 constexpr int kRounds = 7;
-constexpr onset::CertaintyLevel kLevels[] = {onset::CertaintyLevel::conservative,
-                                             onset::CertaintyLevel::certify, onset::CertaintyLevel::exact};
+constexpr onset::Exactness kLevels[] = {onset::Exactness::conservative,
+                                             onset::Exactness::certify, onset::Exactness::exact};
 
 struct Measured {
   double seconds = INFINITY;
@@ -42,7 +42,7 @@ void compare(const char* name, const app::Scene& scene, double tolerance) {
   options.relative_tolerance = tolerance;
   for (int round = 0; round < kRounds; ++round)
     for (int level = 0; level < 3; ++level) {
-      options.certainty = kLevels[level];
+      options.exactness = kLevels[level];
       measure(scene, options, m[level]);
     }
   std::printf("| %s | %.0e | %.1f | %zu | %+.1f %% | %zu of %zu | %+.1f %% | %zu of %zu |\n", name, tolerance,
@@ -59,7 +59,7 @@ int count_once(const char* level, const char* x_t0, const char* x_t1) {
     onset::Options options;
     options.threads = 1;
     options.relative_tolerance = 1e-8;
-    options.certainty = kLevels[i];
+    options.exactness = kLevels[i];
     Measured m;
     measure(scene, options, m);
     return 0;

@@ -21,7 +21,7 @@ std::string cpu_model() {
 std::string kernel() {
   const Eigen::MatrixXd x = Eigen::MatrixXd::Identity(3, 3);
   const onset::Mesh mesh(x, (Eigen::MatrixXi(1, 3) << 0, 1, 2).finished());
-  return onset::construct_active_set(mesh, x, x).stats.kernel;
+  return onset::construct_active_set(mesh, x, x).stats.instruction_set;
 }
 
 }  // namespace

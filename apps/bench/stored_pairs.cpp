@@ -31,7 +31,7 @@ onset::PairCounts StoredPairs::find(const onset::Positions& x_t0, const onset::P
     const onset::Motion motion = onset::make_motion(mesh_->data().num_vertices, x_t0, x_t1);
     const auto broad = onset::make_broad_phase(
         onset::BroadPhaseMethod::automatic,
-        {mesh_->data(), motion, 0, 1, onset::BoxTest::swept, onset::Kernel::automatic});
+        {mesh_->data(), motion, 0, 1, onset::BoxTest::swept, onset::InstructionSet::automatic});
     find_all(*broad, onset::PairKind::vertex_face, &Lists::vertex_face);
     find_all(*broad, onset::PairKind::edge_edge, &Lists::edge_edge);
   });

@@ -112,20 +112,20 @@ onset::Options to_options(const Arguments& a) {
       {"bvh", onset::BroadPhaseMethod::bvh},
       {"hash", onset::BroadPhaseMethod::hash},
       {"brute", onset::BroadPhaseMethod::brute}};
-  static const std::map<std::string, onset::Kernel> kernels = {
-      {"auto", onset::Kernel::automatic}, {"scalar", onset::Kernel::scalar}, {"avx2", onset::Kernel::avx2}};
-  static const std::map<std::string, onset::CertaintyLevel> levels = {
-      {"conservative", onset::CertaintyLevel::conservative},
-      {"certify", onset::CertaintyLevel::certify},
-      {"exact", onset::CertaintyLevel::exact}};
+  static const std::map<std::string, onset::InstructionSet> kernels = {
+      {"auto", onset::InstructionSet::automatic}, {"scalar", onset::InstructionSet::scalar}, {"avx2", onset::InstructionSet::avx2}};
+  static const std::map<std::string, onset::Exactness> levels = {
+      {"conservative", onset::Exactness::conservative},
+      {"certify", onset::Exactness::certify},
+      {"exact", onset::Exactness::exact}};
   if (!a.json.empty() && a.json == a.csv) throw UsageError("--json and --csv cannot both go to " + a.json);
   onset::Options o = a.options;
   o.norm = a.norm == "maximum" ? onset::Norm::maximum : onset::Norm::euclidean;
   o.broad_phase = broad.at(a.broad_phase);
   o.narrow_phase = a.narrow_phase == "inclusion" ? onset::NarrowPhaseMethod::inclusion
                                                  : onset::NarrowPhaseMethod::automatic;
-  o.kernel = kernels.at(a.kernel);
-  o.certainty = levels.at(a.certainty);
+  o.instruction_set = kernels.at(a.kernel);
+  o.exactness = levels.at(a.certainty);
   return o;
 }
 

@@ -113,7 +113,7 @@ std::string describe(const NamedCost& n, int repeats) {
   const onset::Stats& s = c.stats;
   return n.name + "\n" + describe_sizes(n.vertices, n.edges, n.faces) +
          format("threads     %d, kernel %s, broad phase %s, tolerance %.3g, %d repeats\n", s.threads,
-                s.kernel, s.broad_phase, s.tolerance, repeats) +
+                s.instruction_set, s.broad_phase, s.tolerance, repeats) +
          describe("active set", c.active_set, n.primitives()) +
          describe("step size", c.step, n.primitives()) +
          describe("swept pairs, counted", c.pairs, n.primitives()) +

@@ -37,7 +37,7 @@ void replay(const std::string& file, const std::string& kind_name, const onset::
   const onset::PairKind named = kind_name == "vf" ? onset::PairKind::vertex_face : onset::PairKind::edge_edge;
   const onset::PairKind kind = kind_name.empty() ? kind_from_path(file) : named;
   onset::Options options = expected ? expected->options : given;
-  options.kernel = given.kernel;
+  options.instruction_set = given.instruction_set;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const onset::QueryResult r = ask(kind, queries[i], options);
     rows.push_back({file, kind, i, r, expected ? compare(r, expected->answers[i]) : ""});

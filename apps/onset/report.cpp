@@ -62,7 +62,7 @@ Json to_json(const onset::Stats& s) {
           {"plan", to_json(s.filter_counts)},
           {"made_fixed_boxes", s.made_static_boxes},
           {"threads", s.threads},
-          {"kernel", s.kernel},
+          {"kernel", s.instruction_set},
           {"broad_phase", s.broad_phase}};
 }
 

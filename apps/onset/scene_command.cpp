@@ -53,7 +53,7 @@ static std::string seam_hint(const Scene& scene) {
 
 void note_start(const Scene& scene, const onset::Options& options, bool in_contact, Outputs& outputs) {
   onset::Options all;  // without budgets, beyond which "there may be" is the answer
-  all.threads = options.threads, all.broad_phase = options.broad_phase, all.kernel = options.kernel;
+  all.threads = options.threads, all.broad_phase = options.broad_phase, all.instruction_set = options.instruction_set;
   const bool meets = onset::has_intersections(scene.mesh, scene.x_t0, all);
   if (!meets && !in_contact) return;
   const bool apart = !meets && options.min_separation > 0;

@@ -5,7 +5,7 @@
 #include "broadphase/bvh/kernel.hpp"
 
 namespace onset {
-namespace ONSET_KERNEL {
+namespace ONSET_ISA {
 namespace {
 
 constexpr int opposite(int row) { return (row + 3) % 6; }
@@ -112,5 +112,5 @@ inline MovingBoxes moving_boxes_apart(const Directions& directions) {
 }
 
 }  // namespace
-}  // namespace ONSET_KERNEL
+}  // namespace ONSET_ISA
 }  // namespace onset

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 
 namespace onset {
@@ -101,7 +101,7 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
                   const Supports& vertices) {
   if (count_ == 0) return;
   const bool motion = input.test != BoxTest::swept, own = own_supports(input, kind_);
-  const BvhKernel& kernel = bvh_kernel(input.kernel);
+  const BvhKernel& kernel = bvh_kernel(input.instruction_set);
   const Supports mine = own ? make_supports(input, inflation, map, kind_, ids_.data(), count_) : Supports{};
   const Supports& supports = own ? mine : vertices;
   rounded_axes_ = supports.rounded_axes;
@@ -136,11 +136,11 @@ bool BoxTree::apart(const BoxTree& other, bool motion) const {
   return false;
 }
 
-const BvhKernel& bvh_kernel(Kernel kernel) {
+const BvhKernel& bvh_kernel(InstructionSet kernel) {
   static constexpr BvhKernel scalar{bvh_scalar::fit_leaves, bvh_scalar::fit_level, bvh_scalar::traverse};
 #ifdef ONSET_HAVE_AVX2
   static constexpr BvhKernel avx2{bvh_avx2::fit_leaves, bvh_avx2::fit_level, bvh_avx2::traverse};
-  if (resolve_kernel(kernel) == Kernel::avx2) return avx2;
+  if (resolve_instruction_set(kernel) == InstructionSet::avx2) return avx2;
 #endif
   (void)kernel;
   return scalar;

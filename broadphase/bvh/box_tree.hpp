@@ -16,7 +16,7 @@ struct BvhKernel {
   decltype(&bvh_scalar::fit_level) fit_level;
   decltype(&bvh_scalar::traverse) traverse;
 };
-const BvhKernel& bvh_kernel(Kernel kernel);  // scalar or avx2
+const BvhKernel& bvh_kernel(InstructionSet kernel);  // scalar or avx2
 
 class BoxTree {
  public:

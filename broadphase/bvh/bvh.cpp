@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "broadphase/bvh/box_tree.hpp"
 #include "broadphase/bvh/static_trees.hpp"
@@ -104,12 +104,12 @@ class Bvh final : public BroadPhase {
     arguments.first = first, arguments.last = last;
     arguments.meets = Decide::meet, arguments.excluded = Decide::excluded, arguments.context = &decide;
     arguments.consume = sink.consume, arguments.consume_context = sink.context;
-    bvh_kernel(input_->kernel).traverse(arguments);
+    bvh_kernel(input_->instruction_set).traverse(arguments);
   }
 
   void fit(const BroadPhaseInput& input, const FloatMap& map) {
     input_.emplace(input);
-    input_->kernel = resolve_kernel(input.kernel);
+    input_->instruction_set = resolve_instruction_set(input.instruction_set);
     const double inflation = part_inflation(input, false);
     const Supports vertices =
         make_supports(*input_, inflation, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());

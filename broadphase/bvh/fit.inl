@@ -5,7 +5,7 @@
 #include "broadphase/bvh/kernel.hpp"
 
 namespace onset {
-namespace ONSET_KERNEL {
+namespace ONSET_ISA {
 namespace {
 
 // The union of each lane's records, turned into rows; a record has a gap after each three supports.
@@ -61,5 +61,5 @@ void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, 
   }
 }
 
-}  // namespace ONSET_KERNEL
+}  // namespace ONSET_ISA
 }  // namespace onset

@@ -1,4 +1,4 @@
 // The kernel text for any processor.
-#define ONSET_KERNEL bvh_scalar
+#define ONSET_ISA bvh_scalar
 #include "broadphase/bvh/fit.inl"
 #include "broadphase/bvh/traversal.inl"

@@ -4,7 +4,7 @@
 #include "broadphase/bvh/box_overlap.inl"
 
 namespace onset {
-namespace ONSET_KERNEL {
+namespace ONSET_ISA {
 namespace {
 
 // Entries are written eight at a time, so there is room for eight more than may count.
@@ -315,5 +315,5 @@ void traverse(const TraverseArguments& arguments) {
   }
 }
 
-}  // namespace ONSET_KERNEL
+}  // namespace ONSET_ISA
 }  // namespace onset

@@ -14,14 +14,14 @@ enum class BroadPhaseMethod { automatic, bvh, hash, brute };
 // automatic: certificates first, the inclusion root finder as the last resort.
 enum class NarrowPhaseMethod { automatic, inclusion };
 // automatic: ONSET_KERNEL in the environment (scalar, avx2), else the best there is.
-enum class Kernel { automatic, scalar, avx2 };
+enum class InstructionSet { automatic, scalar, avx2 };
 // How far the pipeline goes to tell a real contact from one that only comes within the tolerance, at
 // separation 0 (docs/exactness.md). conservative: not at all. certify: a certificate in doubles, and where
 // that fails a search in integers of fixed width, microseconds a contact at most: what is proved to be no
 // contact is dropped, what is proved real is marked certain, the rest stays. exact: until it is known, so
 // every contact reported is real for the stored positions. A start
 // within rounding of touching is always decided exactly.
-enum class CertaintyLevel { conservative, certify, exact };
+enum class Exactness { conservative, certify, exact };
 
 struct Options {
   // A pair may be reported once it is closer than min_separation + tolerance (model length, > 0). Unset:
@@ -78,7 +78,7 @@ struct Options {
 
   // With a separation > 0, contacts after the start are marked certain at level exact only, where a point of each
   // primitive was found that are no farther apart than that.
-  CertaintyLevel certainty = CertaintyLevel::certify;
+  Exactness exactness = Exactness::certify;
 
   // A pair whose gap at x_t0 is exactly 0 blocks the step: from which side it came is not in the positions, so a motion
   // that seems to part it may as well push it through. true: such a pair may leave its contact in any direction, as
@@ -88,7 +88,7 @@ struct Options {
 
   BroadPhaseMethod broad_phase = BroadPhaseMethod::automatic;
   NarrowPhaseMethod narrow_phase = NarrowPhaseMethod::automatic;
-  Kernel kernel = Kernel::automatic;
+  InstructionSet instruction_set = InstructionSet::automatic;
 };
 
 }  // namespace onset

@@ -84,7 +84,7 @@ struct Stats {
   bool made_static_boxes = false;  // boxes of static primitives were made in this call, not taken from an
                                   // earlier one
   int threads = 0;
-  const char* kernel = "";
+  const char* instruction_set = "";
   const char* broad_phase = "";
 };
 
@@ -95,7 +95,7 @@ struct StepResult {
   // 0, unless a pair parts from a gap so small that storing the positions of a shorter step could close it.
   double shortest = 0;
   // The earliest contact of the exact motion: never later, infinite where there is none. With
-  // CertaintyLevel::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
+  // Exactness::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one.
   // 0 where the call ended early and nothing is known.
   double toi = 0;
   // Model length: more than storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance (eleven times the bound,
@@ -122,7 +122,7 @@ struct ActiveSet {
   std::vector<Outcome> status;  // contact, initial_contact, initial_separating or budget
   std::vector<Certainty> certainty;
   // Finite only where certain: the pair has touched by then. With a separation it is infinite unless the pair touches
-  // at the start: that it comes as close is certain, by when is not told. CertaintyLevel::exact, separation 0: the
+  // at the start: that it comes as close is certain, by when is not told. Exactness::exact, separation 0: the
   // earliest contact has adjacent doubles or one double for toi and toi_hi; which others have depends on the window
   // and the budgets.
   std::vector<double> toi_hi;
@@ -167,7 +167,7 @@ struct QueryResult {
   double toi = INFINITY;         // in [0, 1]; infinite when free
   double step_limit = INFINITY;  // how far the pair lets a step go: toi; initial_separating: the next contact, infinite if none
   double tolerance = 0;  // distance beyond the separation at which the pair was reported
-  // As in ActiveSet. CertaintyLevel::exact, separation 0: toi and toi_hi are adjacent doubles or the same one.
+  // As in ActiveSet. Exactness::exact, separation 0: toi and toi_hi are adjacent doubles or the same one.
   Certainty certainty = Certainty::within_tolerance;
   double toi_hi = INFINITY;
   std::int64_t checks = 0;

@@ -173,7 +173,7 @@ ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std:
   return r;
 }
 
-void contact_geometries(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
+void contact_geometries(InstructionSet kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
                     const double* t, const bool* parting, std::size_t count, ContactGeometry* out) {
   const KernelsOfKind& kernels = kernels_for(kernel).of_kind[int(kind)];
   constexpr std::size_t kAtOnce = 64;

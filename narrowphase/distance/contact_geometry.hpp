@@ -33,7 +33,7 @@ ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std:
 
 // The same for `count` pairs of one kind, ordinary ones in lanes: frames[i] of vertices[i] at t[i].
 // `parting[i]`: as above.
-void contact_geometries(Kernel kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
+void contact_geometries(InstructionSet kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
                     const double* t, const bool* parting, std::size_t count, ContactGeometry* out);
 
 }  // namespace onset

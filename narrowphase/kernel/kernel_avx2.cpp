@@ -1,5 +1,5 @@
 // The kernel text for AVX2; compiled with -mavx2, entered only where the processor has it.
-#define ONSET_KERNEL avx2
+#define ONSET_ISA avx2
 #include "narrowphase/kernel/kernel_text.inl"
 
 namespace onset {

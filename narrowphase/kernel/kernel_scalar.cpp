@@ -1,5 +1,5 @@
 // The kernel text for any processor.
-#define ONSET_KERNEL scalar
+#define ONSET_ISA scalar
 #include "narrowphase/kernel/kernel_text.inl"
 
 namespace onset {

@@ -3,7 +3,7 @@
 #include "narrowphase/kernel/kernel.hpp"
 
 namespace onset {
-namespace ONSET_KERNEL {
+namespace ONSET_ISA {
 namespace {
 
 #include "narrowphase/kernel/direction.inl"
@@ -29,5 +29,5 @@ template <int K>
 constexpr KernelsOfKind kKernels{cull_all<K>, advance_all<K>, certify_all<K>, contact_geometry_all<K>, closest_direction_of<K>};
 
 }  // namespace
-}  // namespace ONSET_KERNEL
+}  // namespace ONSET_ISA
 }  // namespace onset

@@ -81,7 +81,7 @@ TraversalResult find_contacts(const Mesh& mesh, Scene& scene, const Options& opt
   const TraversalBounds limited = collect == Collect::all ? bounds(options) : TraversalBounds{};
   NarrowPhaseInput input{mesh.data(), scene.motion, stats.tolerance, stats.extent, options};
   // All times in one order are exact, or none is.
-  input.exact_times = options.certainty == CertaintyLevel::exact &&
+  input.exact_times = options.exactness == Exactness::exact &&
                       (collect != Collect::all || limited.most < std::numeric_limits<std::size_t>::max());
   // A pass over all vertices in every call is worth it unless most of them are static.
   input.for_many = 2 * mesh.data().filter->static_ids.size() <= std::size_t(mesh.data().num_vertices);

@@ -276,7 +276,7 @@ NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, c
   r.stored = true;
   r.gap_share = gap_share;
   r.rounding = rounding;
-  r.exact_times = options.certainty == CertaintyLevel::exact;
+  r.exact_times = options.exactness == Exactness::exact;
   return r;
 }
 

@@ -1,7 +1,7 @@
 #include "src/shared/step_of_pairs.hpp"
 
 #include "base/clock.hpp"
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/pair_traversal.hpp"
@@ -16,7 +16,7 @@ StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList&
   r.outcome = motion.status;
   r.vertex = motion.bad_vertex;
   r.stats.threads = current_threads();
-  r.stats.kernel = kernel_name(resolve_kernel(options.kernel));
+  r.stats.instruction_set = to_string(resolve_instruction_set(options.instruction_set));
   r.stats.broad_phase = "listed";
   if (r.outcome != Outcome::free) return r;
   describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "base/buffer_pool.hpp"
 #include "narrowphase/narrow_phase.hpp"
@@ -18,7 +18,7 @@ BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, co
   const bool has_static = mesh.filter && mesh.filter->has_static();
   const double inflation =
       has_static ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
-  return {mesh, motion, inflation, t_max, test, options.kernel, half};
+  return {mesh, motion, inflation, t_max, test, options.instruction_set, half};
 }
 
 namespace {
@@ -63,7 +63,7 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
   motion = make_motion(data, x_t0, x_t1);
   if (data.filter) stats.filter_counts = data.filter->counts;
   stats.threads = current_threads();
-  stats.kernel = kernel_name(resolve_kernel(options.kernel));
+  stats.instruction_set = to_string(resolve_instruction_set(options.instruction_set));
   if (motion.status != Outcome::free) return;
   const BoxTest test = use == Use::candidates ? BoxTest::swept : cheaper_box_test(data, motion);
   describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options, stats);

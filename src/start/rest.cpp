@@ -17,7 +17,7 @@ void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& b
   if (!edge_face && options.min_separation > 0)
     input.inflation = 0.5 * options.min_separation * (1 + 0x1p-50) + 0x1p-1074;
   input.test = BoxTest::swept;
-  input.kernel = options.kernel;
+  input.instruction_set = options.instruction_set;
   input.edges_against_faces = edge_face;
   broad = make_broad_phase(options.broad_phase, input);
 }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "broadphase/broad_phase.hpp"
 
 namespace onset::tests {
@@ -37,14 +37,14 @@ inline IdPairs candidates(const BroadPhase& phase, PairKind kind) {
 struct Method {
   const char* name;
   BroadPhaseMethod method;
-  Kernel kernel;
+  InstructionSet instruction_set;
 };
 
 // All but brute force.
 inline std::vector<Method> methods() {
-  std::vector<Method> all{{"bvh scalar", BroadPhaseMethod::bvh, Kernel::scalar},
-                          {"hash", BroadPhaseMethod::hash, Kernel::scalar}};
-  if (has_avx2()) all.push_back({"bvh avx2", BroadPhaseMethod::bvh, Kernel::avx2});
+  std::vector<Method> all{{"bvh scalar", BroadPhaseMethod::bvh, InstructionSet::scalar},
+                          {"hash", BroadPhaseMethod::hash, InstructionSet::scalar}};
+  if (has_avx2()) all.push_back({"bvh avx2", BroadPhaseMethod::bvh, InstructionSet::avx2});
   return all;
 }
 

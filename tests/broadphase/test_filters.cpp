@@ -205,9 +205,9 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
         }
         found += std::int64_t(expected.size());
         std::vector<Method> every = methods();
-        every.push_back({"brute", BroadPhaseMethod::brute, Kernel::scalar});
+        every.push_back({"brute", BroadPhaseMethod::brute, InstructionSet::scalar});
         for (const Method& method : every) {
-          input.kernel = method.kernel;
+          input.instruction_set = method.instruction_set;
           INFO("round " << round << ", " << method.name << ", kind " << int(kind) << ", test " << int(test));
           const auto phase = make_broad_phase(method.method, input);
           CHECK((candidates(*phase, kind) == expected));

@@ -63,7 +63,7 @@ TEST_CASE("boxes one unit in the last place apart in double are not candidates, 
       for (const Method& m : methods())
         for (BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving}) {
           BroadPhaseInput input{soup.mesh, motion};
-          input.test = test, input.kernel = m.kernel;
+          input.test = test, input.instruction_set = m.instruction_set;
           INFO(m.name << " x " << x << " apart " << apart);
           CHECK(candidates(*make_broad_phase(m.method, input), PairKind::edge_edge).size() ==
                 (apart > 0 ? 0u : 1u));

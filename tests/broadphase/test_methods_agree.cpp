@@ -17,7 +17,7 @@ std::size_t expect_agreement(const std::string& what, BroadPhaseInput input) {
   const auto brute = make_broad_phase(BroadPhaseMethod::brute, input);
   std::size_t total = 0;
   for (const Method& method : methods()) {
-    input.kernel = method.kernel;
+    input.instruction_set = method.instruction_set;
     const auto phase = make_broad_phase(method.method, input);
     for (PairKind kind : kKinds) {
       const IdPairs expected = candidates(*brute, kind), found = candidates(*phase, kind);

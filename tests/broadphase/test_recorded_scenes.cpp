@@ -52,7 +52,7 @@ TEST_CASE("recorded scenes: exact overlap counts, and every contact is a candida
         for (const Method& m : methods()) {
           INFO(m.name);
           BroadPhaseInput input{mesh.data(), motion};
-          input.test = BoxTest::swept, input.kernel = m.kernel;
+          input.test = BoxTest::swept, input.instruction_set = m.instruction_set;
           const auto phase = make_broad_phase(m.method, input);
           CHECK(count(*phase, PairKind::edge_edge) == known.edge_edge);
           CHECK(count(*phase, PairKind::vertex_face) == known.vertex_face);
@@ -79,7 +79,7 @@ TEST_CASE("cloth-funnel: every method agrees with brute force", "[oracle]") {
         const IdPairs expected = candidates(*brute, kind);
         for (const Method& m : methods()) {
           INFO(m.name);
-          input.kernel = m.kernel;
+          input.instruction_set = m.instruction_set;
           CHECK((candidates(*make_broad_phase(m.method, input), kind) == expected));
         }
       }

@@ -27,7 +27,7 @@ TEST_CASE("blocks traversed one by one give what one call gives, each pair once"
   const Motion motion = soup.motion();
   for (const Method& m : methods()) {
     BroadPhaseInput input{soup.mesh, motion};
-    input.kernel = m.kernel;
+    input.instruction_set = m.instruction_set;
     const auto phase = make_broad_phase(m.method, input);
     for (PairKind kind : kKinds) {
       INFO(m.name);
@@ -66,7 +66,7 @@ TEST_CASE("both kernels emit the same pairs in the same order", "[simd]") {
     for (BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving}) {
       BroadPhaseInput scalar{soup.mesh, motion}, avx2{soup.mesh, motion};
       scalar.test = avx2.test = test;
-      scalar.kernel = Kernel::scalar, avx2.kernel = Kernel::avx2;
+      scalar.instruction_set = InstructionSet::scalar, avx2.instruction_set = InstructionSet::avx2;
       const auto a = make_broad_phase(BroadPhaseMethod::bvh, scalar),
                  b = make_broad_phase(BroadPhaseMethod::bvh, avx2);
       for (PairKind kind : kKinds) {
@@ -84,14 +84,14 @@ TEST_CASE("a refit finds what a new broad phase finds", "[property]") {
   for (const Method& m : methods()) {
     const Motion first = soup.motion();
     BroadPhaseInput input{soup.mesh, first};
-    input.kernel = m.kernel;
+    input.instruction_set = m.instruction_set;
     const auto reused = make_broad_phase(m.method, input);
     for (int round = 0; round < 6; ++round) {
       Soup next = soup;
       for (double& x : next.x_t1) x += scenes::uniform(random, -0.3, 0.3);
       const Motion motion = next.motion();
       BroadPhaseInput changed{soup.mesh, motion};
-      changed.kernel = m.kernel;
+      changed.instruction_set = m.instruction_set;
       changed.test = BoxTest(round % 3);  // motion boxes need more memory
       changed.t_max = round < 3 ? 1 : 0.25;
       changed.inflation = round == 4 ? 0.02 : 0;
@@ -111,7 +111,7 @@ TEST_CASE("the number of threads changes neither blocks nor the order of pairs",
   const Motion motion = soup.motion();
   for (const Method& m : methods()) {
     BroadPhaseInput input{soup.mesh, motion};
-    input.kernel = m.kernel;
+    input.instruction_set = m.instruction_set;
     IdPairs reference[2];
     for (int threads : {1, 2, 4}) {
       tbb::task_arena arena(threads);
@@ -132,16 +132,16 @@ TEST_CASE("a kernel is chosen by request, by environment or by what the machine 
   const char* old = std::getenv("ONSET_KERNEL");
   const std::string saved = old ? old : "";
   unsetenv("ONSET_KERNEL");
-  CHECK(resolve_kernel(Kernel::scalar) == Kernel::scalar);
-  CHECK(resolve_kernel(Kernel::automatic) == (has_avx2() ? Kernel::avx2 : Kernel::scalar));
+  CHECK(resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar);
+  CHECK(resolve_instruction_set(InstructionSet::automatic) == (has_avx2() ? InstructionSet::avx2 : InstructionSet::scalar));
   setenv("ONSET_KERNEL", "scalar", 1);
-  CHECK(resolve_kernel(Kernel::automatic) == Kernel::scalar);
-  if (has_avx2()) CHECK(resolve_kernel(Kernel::avx2) == Kernel::avx2);
-  if (!has_avx2()) CHECK_THROWS_AS(resolve_kernel(Kernel::avx2), std::invalid_argument);
+  CHECK(resolve_instruction_set(InstructionSet::automatic) == InstructionSet::scalar);
+  if (has_avx2()) CHECK(resolve_instruction_set(InstructionSet::avx2) == InstructionSet::avx2);
+  if (!has_avx2()) CHECK_THROWS_AS(resolve_instruction_set(InstructionSet::avx2), std::invalid_argument);
   setenv("ONSET_KERNEL", "sse9", 1);
-  CHECK_THROWS_WITH(resolve_kernel(Kernel::automatic), Catch::Contains("sse9"));
-  CHECK(resolve_kernel(Kernel::scalar) == Kernel::scalar);
-  CHECK(std::string(kernel_name(Kernel::avx2)) == "avx2");
+  CHECK_THROWS_WITH(resolve_instruction_set(InstructionSet::automatic), Catch::Contains("sse9"));
+  CHECK(resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar);
+  CHECK(std::string(to_string(InstructionSet::avx2)) == "avx2");
   if (old)
     setenv("ONSET_KERNEL", saved.c_str(), 1);
   else

@@ -52,12 +52,12 @@ bool in_range(const Query& query) {
 
 void expect_same(const std::string& source, const Query& a, const Query& b, const Options& oa,
                  const Options& ob, double unit = 1) {
-  for (Kernel kernel : kernels()) {
+  for (InstructionSet kernel : kernels()) {
     Options first = oa, second = ob;
-    first.kernel = second.kernel = kernel;
+    first.instruction_set = second.instruction_set = kernel;
     const QueryResult x = ccd(a, first), y = ccd(b, second);
     if (!same(x, y, unit))
-      FAIL_CHECK(source << " on " << kernel_name(kernel) << "\n  " << to_text(a) << "\n  " << to_text(b)
+      FAIL_CHECK(source << " on " << to_string(kernel) << "\n  " << to_text(a) << "\n  " << to_text(b)
                         << "\n  d " << oa.min_separation << " norm " << int(oa.norm) << " method "
                         << int(oa.narrow_phase) << " max_checks " << oa.max_checks << "\n  " << to_text(x)
                         << "\n  " << to_text(y));

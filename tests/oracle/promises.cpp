@@ -72,7 +72,7 @@ std::string to_text(const Options& options, const QueryResult& result) {
                 options.tolerance ? "" : "relative ", options.tolerance.value_or(options.relative_tolerance),
                 static_cast<long long>(options.max_checks), options.min_separation,
                 options.norm == Norm::maximum ? "maximum" : "euclidean", int(options.narrow_phase),
-                int(options.kernel), onset::to_string(result.outcome), result.toi, result.toi,
+                int(options.instruction_set), onset::to_string(result.outcome), result.toi, result.toi,
                 result.tolerance, static_cast<long long>(result.checks));
   return line;
 }

@@ -88,7 +88,7 @@ bool is_point(const Mesh& mesh, int edge) { return edge >= mesh.num_edges() - me
 TEST_CASE("a point meets a wire exactly, and misses it by a hair", "[unit]") {
   Options o;
   o.tolerance = 1e-9;
-  o.certainty = CertaintyLevel::exact;
+  o.exactness = Exactness::exact;
   const Scene hit = falling_beside(0);
   const ActiveSet set = construct_active_set(wire_and_point(), hit.x_t0, hit.x_t1, o);
   REQUIRE(set.size() == 1);
@@ -140,7 +140,7 @@ TEST_CASE("two points meet head-on without a separation, and pass each other oth
   s.x_t0 << 1, 2, 3, -1, -2, -3;
   s.x_t1 << -3, -6, -9, 0, 0, 0;
   Options o;
-  o.certainty = CertaintyLevel::exact;
+  o.exactness = Exactness::exact;
   ActiveSet set = construct_active_set(two_points(), s.x_t0, s.x_t1, o);
   REQUIRE(set.size() == 1);
   CHECK(set.vertices[0] == std::array<int, 4>{1, 1, 0, 0});  // in the order of set_points
@@ -211,7 +211,7 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
     Options o;
     o.tolerance = 1e-7;
     o.min_separation = grid ? 0 : 0.05;
-    if (grid) o.certainty = CertaintyLevel::exact;
+    if (grid) o.exactness = Exactness::exact;
     if (round % 8 == 3) o.norm = Norm::maximum;
     std::vector<double> t(24, 0);
     if (!grid && round % 4 == 1) {
@@ -220,7 +220,7 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
     }
     const ActiveSet set = construct_active_set(m.mesh, m.scene.x_t0, m.scene.x_t1, o);
     Options less = o;
-    less.certainty = CertaintyLevel::certify;
+    less.exactness = Exactness::certify;
     const ActiveSet certified = construct_active_set(m.mesh, m.scene.x_t0, m.scene.x_t1, less);
     for_all_pairs(m.mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
       if (kind == PairKind::vertex_face || !is_point(m.mesh, b)) return;
@@ -254,9 +254,9 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
     const StepResult step = compute_collision_free_stepsize(m.mesh, m.scene.x_t0, m.scene.x_t1, o);
     for (const BroadPhaseMethod method :
          {BroadPhaseMethod::hash, BroadPhaseMethod::brute, BroadPhaseMethod::bvh})
-      for (const Kernel kernel : {Kernel::scalar, Kernel::automatic}) {
+      for (const InstructionSet kernel : {InstructionSet::scalar, InstructionSet::automatic}) {
         Options other = o;
-        other.broad_phase = method, other.kernel = kernel, other.threads = 2;
+        other.broad_phase = method, other.instruction_set = kernel, other.threads = 2;
         CHECK(same_bytes(set, construct_active_set(m.mesh, m.scene.x_t0, m.scene.x_t1, other)));
         CHECK(same_bytes(step, compute_collision_free_stepsize(m.mesh, m.scene.x_t0, m.scene.x_t1, other)));
       }

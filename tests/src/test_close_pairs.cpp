@@ -176,14 +176,14 @@ TEST_CASE("threads, kernels and broad phases give the same distance set", "[dete
     const Mesh mesh = named.mesh();
     const Eigen::MatrixXd &x = named.scene.x_t0, dx = named.scene.x_t1 - x;
     Options o;
-    o.kernel = Kernel::scalar;
+    o.instruction_set = InstructionSet::scalar;
     o.threads = 1;
     const ClosePairs still = close_pairs(mesh, x, 0.05, o);
     const ClosePairs moved = LineSearch(mesh, x, dx, o, 0.2, 0.05).close_pairs(0.5);
-    for (Kernel kernel : kernels())
+    for (InstructionSet kernel : kernels())
       for (int threads : {1, 4})
         for (BroadPhaseMethod method : {BroadPhaseMethod::brute, BroadPhaseMethod::bvh}) {
-          o.kernel = kernel, o.threads = threads, o.broad_phase = method;
+          o.instruction_set = kernel, o.threads = threads, o.broad_phase = method;
           CAPTURE(named.name, threads, int(kernel), int(method));
           CHECK(same_bytes(still, close_pairs(mesh, x, 0.05, o)));
           CHECK(same_bytes(moved, LineSearch(mesh, x, dx, o, 0.2, 0.05).close_pairs(0.5)));

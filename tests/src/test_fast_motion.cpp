@@ -24,7 +24,7 @@ scenes::Scene in_eighths(scenes::Scene scene) {
 int expect_all_that_touch(const scenes::Scene& scene) {
   const Mesh mesh(scene.x_t0, scene.faces);
   Options o;
-  o.certainty = CertaintyLevel::exact;
+  o.exactness = Exactness::exact;
   const ActiveSet set = construct_active_set(mesh, scene.x_t0, scene.x_t1, o);
   int contacts = 0;
   for_all_pairs(mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {

@@ -25,7 +25,7 @@ EdgeEdgeQuery crossing_edges(double height_t0, double height_t1) {
 }
 
 // One face below, one vertex's face above it: the upper one moves.
-StepResult step_of_pairs(double from, double to, double d = 0) {
+StepResult step_of(double from, double to, double d = 0) {
   Eigen::MatrixXd x0(6, 3);
   x0 << 0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, from, 1.25, .5, from + 1, .5, 1.25, from + 1;
   Eigen::MatrixXi F(2, 3);

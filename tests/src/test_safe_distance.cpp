@@ -58,7 +58,7 @@ TEST_CASE("motion within the safe distances makes no contact", "[oracle][propert
         const Eigen::MatrixXd there = x + dx;
         for (std::size_t v = 0; v < r.size(); ++v) CHECK(r[v] <= d_hat / 2);
         Options conservative;  // near misses are reported
-        conservative.certainty = CertaintyLevel::conservative;
+        conservative.exactness = Exactness::conservative;
         // Pairs that touch from the start have r = 0 and stay as they are.
         const ActiveSet set = construct_active_set(mesh, x, there, conservative);
         for (std::size_t i = 0; i < set.size(); ++i) {

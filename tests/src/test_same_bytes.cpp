@@ -56,14 +56,14 @@ TEST_CASE("threads and kernels give the same bytes, run after run", "[determinis
       Options o;
       o.min_separation = separation;
       o.threads = 1;
-      o.kernel = Kernel::scalar;
+      o.instruction_set = InstructionSet::scalar;
       const Answers reference = ask(mesh, named.scene, o);
-      for (Kernel kernel : kernels())
+      for (InstructionSet kernel : kernels())
         for (int threads : {0, 1, 2, 4})
           for (int run = 0; run < 2; ++run) {
-            o.kernel = kernel;
+            o.instruction_set = kernel;
             o.threads = threads;
-            CAPTURE(named.name, threads, kernel_name(kernel), run);
+            CAPTURE(named.name, threads, to_string(kernel), run);
             CHECK(same_bytes(reference, ask(mesh, named.scene, o)));
           }
     }
@@ -141,14 +141,14 @@ TEST_CASE("recorded steps give the same bytes on both kernels and any number of 
     const scenes::Scene scene{recording.t0.x, recording.t1.x, recording.t0.faces};
     Options o;
     o.threads = 1;
-    o.kernel = Kernel::scalar;
+    o.instruction_set = InstructionSet::scalar;
     const Answers reference = ask(mesh, scene, o);
     CHECK(reference.active.size() > 0);
-    for (Kernel kernel : kernels())
+    for (InstructionSet kernel : kernels())
       for (int threads : {2, 4}) {
-        o.kernel = kernel;
+        o.instruction_set = kernel;
         o.threads = threads;
-        CAPTURE(step.name, threads, kernel_name(kernel));
+        CAPTURE(step.name, threads, to_string(kernel));
         CHECK(same_bytes(reference, ask(mesh, scene, o)));
       }
   }

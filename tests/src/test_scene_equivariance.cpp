@@ -70,12 +70,12 @@ void expect_same(const NamedScene& named, const Scene& other, const Options& o, 
   Options there = o;
   there.min_separation *= unit;
   if (o.tolerance) there.tolerance = *o.tolerance * unit;
-  for (Kernel kernel : kernels()) {
+  for (InstructionSet kernel : kernels()) {
     Options first = o;
-    first.kernel = there.kernel = kernel;
+    first.instruction_set = there.instruction_set = kernel;
     const auto a = construct_active_set(mesh, named.scene.x_t0, named.scene.x_t1, first);
     const auto b = construct_active_set(mesh, other.x_t0, other.x_t1, there);
-    CAPTURE(named.name, kernel_name(kernel), o.min_separation, unit, a.size(), b.size());
+    CAPTURE(named.name, to_string(kernel), o.min_separation, unit, a.size(), b.size());
     CHECK(same_bytes(in_other_scene(a, unit, p), in_other_scene(b, 1, kIdentity)));
     expect_same_step(compute_collision_free_stepsize(mesh, named.scene.x_t0, named.scene.x_t1, first),
                      compute_collision_free_stepsize(mesh, other.x_t0, other.x_t1, there), unit);

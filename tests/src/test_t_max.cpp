@@ -30,7 +30,7 @@ TEST_CASE("exact: the step is the earliest contact between adjacent doubles, at 
   for (unsigned seed = 1; seed <= 16; ++seed) {
     auto [soup, mesh, options] = tests::soup(seed, 20 + int(seed) * 20);
     options.min_separation = 0;
-    options.certainty = CertaintyLevel::exact;
+    options.exactness = Exactness::exact;
     StepResult first;
     std::vector<std::array<int, 4>> found;
     for (double tolerance : {1e-2, 1e-6, 1e-10}) {
@@ -84,7 +84,7 @@ struct Triangles {
          {BroadPhaseMethod::brute, BroadPhaseMethod::bvh, BroadPhaseMethod::hash}) {
       Options options;
       options.broad_phase = method;
-      options.certainty = CertaintyLevel::conservative;  // reports what is within the tolerance
+      options.exactness = Exactness::conservative;  // reports what is within the tolerance
       const ActiveSet set = construct_active_set(mesh, begin, end, options);
       const StepResult step = compute_collision_free_stepsize(mesh, begin, end, options);
       REQUIRE(set.size() == contacts);

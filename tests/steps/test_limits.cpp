@@ -68,10 +68,10 @@ TEST_CASE("every contact before complete_until is in a set cut off by memory", "
   Options options;
   const SceneTruth truth(Asked{mesh, scene.x_t0, scene.x_t1, options, {}});
   REQUIRE(truth.contacts.size() == 1500);
-  for (CertaintyLevel level : {CertaintyLevel::conservative, CertaintyLevel::certify, CertaintyLevel::exact})
+  for (Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact})
     for (double tolerance : {1e-6, 1e-3})
       for (int contacts : {0, 1, 3, 10, 700, 1499, 1500}) {
-        options.certainty = level, options.relative_tolerance = tolerance,
+        options.exactness = level, options.relative_tolerance = tolerance,
         options.memory_limit = bytes_of(contacts);
         const ActiveSet set = construct_active_set(mesh, scene.x_t0, scene.x_t1, options);
         CAPTURE(int(level), tolerance, contacts, set.complete_until, set.size());
@@ -102,7 +102,7 @@ TEST_CASE("windows and memory limits leave out no contact before complete_until"
     const ActiveSet set = construct_active_set(mesh, scene.x_t0, scene.x_t1, limited);
     const std::string wrong = wrong_set({mesh, scene.x_t0, scene.x_t1, limited, {}}, truth, set);
     INFO("scene " << i << ", window " << limited.window << ", memory " << limited.memory_limit
-                  << ", certainty " << int(limited.certainty) << ", complete until " << set.complete_until
+                  << ", certainty " << int(limited.exactness) << ", complete until " << set.complete_until
                   << ", rows " << set.size());
     CHECK(wrong == "");
     if (full.size() > 0 && set.size() > 0)
@@ -129,10 +129,10 @@ TEST_CASE("few checks, values of t_max and windows give the same bytes for any n
     if (scenes::coin(random)) o.window = scenes::coin(random) ? 0 : 0.01;
     if (scenes::integer(random, 0, 3) == 0) o.memory_limit = bytes_of(scenes::integer(random, 0, 20));
     const Answers one = ask(calls, scene, o, 1);
-    INFO("scene " << i << ", checks " << o.max_checks << ", certainty " << int(o.certainty) << ", narrow "
+    INFO("scene " << i << ", checks " << o.max_checks << ", certainty " << int(o.exactness) << ", narrow "
                   << int(o.narrow_phase) << ", window " << o.window << ", " << one.set.size() << " rows");
     for (int threads : {2, 4, 4}) CHECK(same(one, ask(calls, scene, o, threads)));
-    o.kernel = o.kernel == Kernel::scalar ? Kernel::automatic : Kernel::scalar;
+    o.instruction_set = o.instruction_set == InstructionSet::scalar ? InstructionSet::automatic : InstructionSet::scalar;
     CHECK(same(one, ask(calls, scene, o, 1)));
   }
 }

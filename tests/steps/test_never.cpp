@@ -29,10 +29,10 @@ Answers ask(const Query& query, const Options& options) {
 }  // namespace
 
 TEST_CASE("a pair that never touches does so at infinity", "[unit]") {
-  for (CertaintyLevel level :
-       {CertaintyLevel::conservative, CertaintyLevel::certify, CertaintyLevel::exact}) {
+  for (Exactness level :
+       {Exactness::conservative, Exactness::certify, Exactness::exact}) {
     Options options;
-    options.certainty = level;
+    options.exactness = level;
     for (const Query& query : {over_a_face(1, 0.5), over_a_face(1, 1), over_a_face(1, 2)}) {
       const Answers a = ask(query, options);
       CHECK((a.query.outcome == Outcome::free && a.query.toi == INFINITY && a.query.step_limit == INFINITY));
@@ -44,17 +44,17 @@ TEST_CASE("a pair that never touches does so at infinity", "[unit]") {
 }
 
 TEST_CASE("a pair that touches at the end does so at 1, and the step ends before", "[unit]") {
-  for (CertaintyLevel level :
-       {CertaintyLevel::conservative, CertaintyLevel::certify, CertaintyLevel::exact}) {
+  for (Exactness level :
+       {Exactness::conservative, Exactness::certify, Exactness::exact}) {
     Options options;
-    options.certainty = level;
+    options.exactness = level;
     const Answers a = ask(over_a_face(1, 0), options);
     CHECK((a.query.outcome == Outcome::contact && a.query.toi <= 1 && a.query.toi > 0.99));
     CHECK((a.step.outcome == Outcome::contact && a.step.step < 1 && a.step.step > 0.99 &&
            a.step.limiting.a == 0));
     CHECK((a.step.toi <= 1 && a.step.toi > 0.99));
     CHECK((a.set.size() == 1 && a.set.toi[0] == a.step.toi && !a.free));
-    if (level == CertaintyLevel::exact) CHECK((a.query.toi == 1 && a.step.toi == 1 && a.step.toi_hi == 1));
+    if (level == Exactness::exact) CHECK((a.query.toi == 1 && a.step.toi == 1 && a.step.toi_hi == 1));
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 std::string to_text(const Options& o) {
   std::ostringstream s;
   s << "tolerance " << o.tolerance.value_or(0) << ", relative " << o.relative_tolerance << ", separation "
-    << o.min_separation << ", norm " << int(o.norm) << ", certainty " << int(o.certainty) << ", checks "
+    << o.min_separation << ", norm " << int(o.norm) << ", certainty " << int(o.exactness) << ", checks "
     << o.max_checks << ", narrow " << int(o.narrow_phase) << ", broad " << int(o.broad_phase) << ", window "
     << o.window << ", passes " << o.touching_may_pass_through;
   return s.str();

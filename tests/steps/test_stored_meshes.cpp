@@ -90,7 +90,7 @@ bool push(const Calls& calls, Call call, const Eigen::MatrixXd& aim, Eigen::Matr
   const Eigen::MatrixXd x_t1 = end_of(call, x, aim);
   Options options;
   options.threads = 1;
-  options.certainty = CertaintyLevel(scenes::integer(random, 0, 2));
+  options.exactness = Exactness(scenes::integer(random, 0, 2));
   const Asked asked{calls.mesh(call), x, x_t1, options, {}};
   const CallStep step = calls.ask(call, x, x_t1, options, scenes::power_of_ten(random, -3, 0));
   ++c.pushes, c.stopped += step.result.step == 0;

@@ -97,7 +97,7 @@ struct Counts {
 
 Options some_options(double separation, Random& random) {
   Options o;
-  o.certainty = CertaintyLevel(scenes::integer(random, 0, 2));
+  o.exactness = Exactness(scenes::integer(random, 0, 2));
   if (scenes::coin(random)) o.relative_tolerance = scenes::power_of_ten(random, -16, -2);
   o.min_separation = separation;
   o.threads = 1;
@@ -134,7 +134,7 @@ bool push(const Calls& calls, Call call, const Query& wish, const Options& optio
   if (broken.empty()) return true;
   FAIL_CHECK(name(call) << ": " << broken << "\n  " << to_string(step.result.outcome) << ", step "
                         << step.result.step << ", rounding " << step.result.rounding << ", separation "
-                        << options.min_separation << ", certainty " << int(options.certainty)
+                        << options.min_separation << ", certainty " << int(options.exactness)
                         << ", tolerance " << options.relative_tolerance << "\n  " << to_text(motion));
   return false;
 }

@@ -53,7 +53,7 @@ TEST_CASE("subnormal scenes keep every promise, whatever is asked", "[property][
     const double d_hat = 0x1p-1074 * scenes::integer(random, 1, 4000);
     INFO("scene " << i << ", tolerance " << options.tolerance.value_or(0) << ", relative "
                   << options.relative_tolerance << ", separation " << options.min_separation << ", norm "
-                  << int(options.norm) << ", certainty " << int(options.certainty) << ", checks "
+                  << int(options.norm) << ", certainty " << int(options.exactness) << ", checks "
                   << options.max_checks << ", narrow " << int(options.narrow_phase));
     CHECK(broken_promise({calls.mesh(), scene.x_t0, scene.x_t1, options, {}}, calls, d_hat) == "");
   }

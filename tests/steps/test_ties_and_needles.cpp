@@ -104,7 +104,7 @@ void check_all(int pairs, std::uint64_t seed, Norm norm) {
     o.threads = 1;
     o.min_separation = separation_near(oracle::distance(query, 0, norm).lo, random);
     if (scenes::coin(random)) o.relative_tolerance = scenes::power_of_ten(random, -16, 0);
-    if (scenes::integer(random, 0, 3) == 0) o.certainty = CertaintyLevel::exact;
+    if (scenes::integer(random, 0, 3) == 0) o.exactness = Exactness::exact;
     if (!(o.min_separation > 0)) continue;
     const Kept k = kept(query, o.min_separation, norm);
     (k.beyond ? beyond : within) += 1;

@@ -68,8 +68,8 @@ std::vector<Scene> motions(const Touching& bodies, Random& random) {
 
 std::vector<Options> ways_to_ask() {
   std::vector<Options> all(7);
-  all[1].certainty = CertaintyLevel::exact;
-  all[2].certainty = CertaintyLevel::conservative, all[2].relative_tolerance = 1e-300;
+  all[1].exactness = Exactness::exact;
+  all[2].exactness = Exactness::conservative, all[2].relative_tolerance = 1e-300;
   all[3].min_separation = 0.01, all[3].max_checks = 1;
   all[4].min_separation = 0.125, all[4].norm = Norm::maximum;
   all[5].narrow_phase = NarrowPhaseMethod::inclusion, all[5].max_checks = 50;
@@ -124,7 +124,7 @@ TEST_CASE("a pair that touches exactly at the start blocks the step and is a con
         Query query = family.make(kind, random);
         if (scenes::integer(random, 0, 4) == 0) query.t1 = query.t0;
         Options options;
-        options.certainty = CertaintyLevel(scenes::integer(random, 0, 2));
+        options.exactness = Exactness(scenes::integer(random, 0, 2));
         options.relative_tolerance = scenes::power_of_ten(random, -300, -1);
         INFO(family.name << " " << to_text(query));
         const QueryResult r = scenes::ccd(query, options);

@@ -51,7 +51,7 @@ Scene folding(Random& random) {
 
 Options exactly() {
   Options options;
-  options.certainty = CertaintyLevel::exact;
+  options.exactness = Exactness::exact;
   options.tolerance = 1e-8;
   return options;
 }

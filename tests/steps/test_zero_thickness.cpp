@@ -39,7 +39,7 @@ TEST_CASE("zero thickness gives the same bytes as none", "[property][determinism
     const Mesh plain = s.mesh();
     Mesh thin = plain;
     thin.set_thickness(std::vector<double>(std::size_t(plain.num_vertices()), 0));
-    CAPTURE(i, int(o.certainty), o.min_separation, int(o.norm));
+    CAPTURE(i, int(o.exactness), o.min_separation, int(o.norm));
     CHECK(same_bytes(compute_collision_free_stepsize(plain, s.x_t0, s.x_t1, o),
                      compute_collision_free_stepsize(thin, s.x_t0, s.x_t1, o)));
     CHECK(same_bytes(construct_active_set(plain, s.x_t0, s.x_t1, o),
@@ -64,7 +64,7 @@ TEST_CASE("a pair without thickness is decided exactly though others have some",
     std::fill(thickness.end() - 6, thickness.end(), 0.125);
     mesh.set_thickness(thickness);
     Options o = random_options(bare, random);
-    o.min_separation = 0, o.certainty = CertaintyLevel::exact;
+    o.min_separation = 0, o.exactness = Exactness::exact;
     const Asked asked{mesh, s.x_t0, s.x_t1, o, thickness};
     const SceneTruth truth(asked);
     const ActiveSet set = construct_active_set(mesh, s.x_t0, s.x_t1, o);

@@ -50,14 +50,14 @@ Query turned(Query q) {
 // At all levels of certainty, with both kernels and both windings.
 void check_all(const Query& query, Past past, Options o, Counts& counts) {
   for (const Query& q : {query, turned(query)})
-    for (const CertaintyLevel level :
-         {CertaintyLevel::conservative, CertaintyLevel::certify, CertaintyLevel::exact}) {
-      o.certainty = level, o.kernel = Kernel::scalar, o.threads = 1;
+    for (const Exactness level :
+         {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+      o.exactness = level, o.instruction_set = InstructionSet::scalar, o.threads = 1;
       const Mesh mesh = mesh_of(q.kind);
       const Eigen::MatrixXd x0 = matrix(q.t0), x1 = matrix(q.t1);
       const ActiveSet set = construct_active_set(mesh, x0, x1, o);
-      for (const Kernel kernel : kernels()) {
-        o.kernel = kernel;
+      for (const InstructionSet kernel : kernels()) {
+        o.instruction_set = kernel;
         CHECK(same_bytes(set, construct_active_set(mesh, x0, x1, o)));
       }
       if (set.size() == 0) continue;
@@ -290,10 +290,10 @@ TEST_CASE("the normal of a grazing contact is that of the side it touches from",
                 {{{0.125, 0.1875, 0.125}, {0, 0, 0}, {0, 1, 0.625}, {1, 0, 0}}},
                 {{{0.125, 0.3125, 0.125}, {0, 0, 0}, {0, 1, 0.375}, {1, 0, 0}}}};
   Options o;
-  for (const CertaintyLevel level :
-       {CertaintyLevel::conservative, CertaintyLevel::certify, CertaintyLevel::exact})
+  for (const Exactness level :
+       {Exactness::conservative, Exactness::certify, Exactness::exact})
     for (const Query& query : {q, turned(q)}) {
-      o.certainty = level;
+      o.exactness = level;
       const ActiveSet set = active_set(query, o);
       REQUIRE(set.size() == 1);
       CHECK(set.normal[0][1] == Approx(-std::sqrt(0.2)).epsilon(1e-5));

@@ -12,9 +12,9 @@ using namespace onset;
 
 namespace {
 
-const char* name(CertaintyLevel level) {
-  return level == CertaintyLevel::exact     ? "exact"
-         : level == CertaintyLevel::certify ? "certify"
+const char* name(Exactness level) {
+  return level == Exactness::exact     ? "exact"
+         : level == Exactness::certify ? "certify"
                                             : "conservative";
 }
 
@@ -88,9 +88,9 @@ void check_step(const std::string& folder, const scenes::RecordedStep& step) {
   CHECK(truth.candidates == candidates.vertex_face.size() + candidates.edge_edge.size());
   std::printf("%s: %zu candidates, %zu decided quickly, %zu contacts\n", step.name, truth.candidates,
               truth.quick, truth.contacts.size());
-  for (const CertaintyLevel level :
-       {CertaintyLevel::conservative, CertaintyLevel::certify, CertaintyLevel::exact}) {
-    options.certainty = level;
+  for (const Exactness level :
+       {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+    options.exactness = level;
     const ActiveSet set = construct_active_set(mesh, recording.t0.x, recording.t1.x, options);
     const Differences d = compare(truth, set);
     std::printf(
@@ -102,8 +102,8 @@ void check_step(const std::string& folder, const scenes::RecordedStep& step) {
     CHECK(d.late == 0);
     CHECK(d.too_early_hi == 0);
     CHECK(d.wrong_flags == 0);
-    if (level == CertaintyLevel::exact) CHECK(d.false_positives == 0);
-    if (level == CertaintyLevel::exact) CHECK(d.certain == int(set.size()));
+    if (level == Exactness::exact) CHECK(d.false_positives == 0);
+    if (level == Exactness::exact) CHECK(d.certain == int(set.size()));
   }
 }
 

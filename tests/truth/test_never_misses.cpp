@@ -32,7 +32,7 @@ static void for_all_options(scenes::Random& random, F&& f) {
     for (std::int64_t budget : kBudgets) {
       options.relative_tolerance = tolerance;
       options.max_checks = budget;
-      options.kernel = scenes::coin(random) ? Kernel::scalar : Kernel::automatic;
+      options.instruction_set = scenes::coin(random) ? InstructionSet::scalar : InstructionSet::automatic;
       options.narrow_phase =
           scenes::integer(random, 0, 3) ? NarrowPhaseMethod::automatic : NarrowPhaseMethod::inclusion;
       if (options.narrow_phase == NarrowPhaseMethod::inclusion)

@@ -75,8 +75,8 @@ TEST_CASE("the inclusion root finder reports no more than its tolerance for a sl
   Options options;
   options.relative_tolerance = 1e-14;
   options.narrow_phase = NarrowPhaseMethod::inclusion;
-  for (Kernel kernel : {Kernel::scalar, Kernel::automatic}) {
-    options.kernel = kernel;
+  for (InstructionSet kernel : {InstructionSet::scalar, InstructionSet::automatic}) {
+    options.instruction_set = kernel;
     const QueryResult result = scenes::ccd(query, options);
     INFO(oracle::to_text(options, result));
     REQUIRE(result.outcome == Outcome::contact);

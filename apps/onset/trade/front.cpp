@@ -32,8 +32,8 @@ Middle middle(std::vector<double> us) {
 bool same_work(const Measured& a, const Measured& b) {
   const onset::Options &o = a.setting.options, &p = b.setting.options;
   const Answers &x = a.answers, &y = b.answers;
-  return o.threads == p.threads && o.kernel == p.kernel && o.broad_phase == p.broad_phase &&
-         o.narrow_phase == p.narrow_phase && o.certainty == p.certainty && x.checks == y.checks &&
+  return o.threads == p.threads && o.instruction_set == p.instruction_set && o.broad_phase == p.broad_phase &&
+         o.narrow_phase == p.narrow_phase && o.exactness == p.exactness && x.checks == y.checks &&
          x.inclusion == y.inclusion && x.positives == y.positives && x.budget == y.budget;
 }
 

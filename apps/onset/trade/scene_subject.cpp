@@ -140,7 +140,7 @@ onset::Options finest(onset::Options base) {
   base.relative_tolerance = 1e-12;
   base.max_checks = std::max<std::int64_t>(base.max_checks, 1'000'000);
   base.narrow_phase = onset::NarrowPhaseMethod::automatic;
-  base.certainty = onset::CertaintyLevel::conservative;
+  base.exactness = onset::Exactness::conservative;
   return base;
 }
 

@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-using onset::BroadPhaseMethod, onset::CertaintyLevel, onset::Kernel, onset::NarrowPhaseMethod, onset::Norm,
+using onset::BroadPhaseMethod, onset::Exactness, onset::InstructionSet, onset::NarrowPhaseMethod, onset::Norm,
     onset::Options;
 
 // Brute force over more than this takes longer than everything else together.
@@ -104,13 +104,13 @@ void threads(Axis& axis, const Options& base, const Grounds& grounds) {
 
 void certainty(Axis& axis, const Options& base, const Grounds&) {
   for (const auto& [name, level] :
-       {std::pair{"conservative", CertaintyLevel::conservative},
-        std::pair{"certify", CertaintyLevel::certify}, std::pair{"exact", CertaintyLevel::exact}})
-    if (level != base.certainty) axis.add(name, [l = level](Options& o) { o.certainty = l; });
+       {std::pair{"conservative", Exactness::conservative},
+        std::pair{"certify", Exactness::certify}, std::pair{"exact", Exactness::exact}})
+    if (level != base.exactness) axis.add(name, [l = level](Options& o) { o.exactness = l; });
 }
 
 void kernel(Axis& axis, const Options& base, const Grounds&) {
-  if (base.kernel != Kernel::scalar) axis.add("scalar", [](Options& o) { o.kernel = Kernel::scalar; });
+  if (base.instruction_set != InstructionSet::scalar) axis.add("scalar", [](Options& o) { o.instruction_set = InstructionSet::scalar; });
 }
 
 struct NamedAxis {
@@ -136,13 +136,13 @@ const char* word(BroadPhaseMethod m) {
          : m == BroadPhaseMethod::brute ? "BroadPhaseMethod::brute"
                                         : "BroadPhaseMethod::automatic";
 }
-const char* word(Kernel k) {
-  return k == Kernel::scalar ? "Kernel::scalar" : k == Kernel::avx2 ? "Kernel::avx2" : "Kernel::automatic";
+const char* word(InstructionSet k) {
+  return k == InstructionSet::scalar ? "InstructionSet::scalar" : k == InstructionSet::avx2 ? "InstructionSet::avx2" : "InstructionSet::automatic";
 }
-const char* word(CertaintyLevel c) {
-  return c == CertaintyLevel::exact     ? "CertaintyLevel::exact"
-         : c == CertaintyLevel::certify ? "CertaintyLevel::certify"
-                                        : "CertaintyLevel::conservative";
+const char* word(Exactness c) {
+  return c == Exactness::exact     ? "Exactness::exact"
+         : c == Exactness::certify ? "Exactness::certify"
+                                        : "Exactness::conservative";
 }
 const char* word(Norm n) { return n == Norm::maximum ? "Norm::maximum" : "Norm::euclidean"; }
 
@@ -184,8 +184,8 @@ std::string in_words(const Options& o) {
   say(o.threads != defaults.threads, format("threads = %d", o.threads));
   say(o.broad_phase != defaults.broad_phase, std::string("broad_phase = ") + word(o.broad_phase));
   say(o.narrow_phase != defaults.narrow_phase, std::string("narrow_phase = ") + word(o.narrow_phase));
-  say(o.certainty != defaults.certainty, std::string("certainty = ") + word(o.certainty));
-  say(o.kernel != defaults.kernel, std::string("kernel = ") + word(o.kernel));
+  say(o.exactness != defaults.exactness, std::string("exactness = ") + word(o.exactness));
+  say(o.instruction_set != defaults.instruction_set, std::string("instruction_set = ") + word(o.instruction_set));
   return text.empty() ? "the defaults" : text;
 }
 

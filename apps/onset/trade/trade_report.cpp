@@ -50,9 +50,9 @@ Json early_json(const std::optional<Earliness>& e) {
   return {{"pairs", e->pairs}, {"mean", e->mean()}, {"max", e->most}, {"zero", e->zero}, {"late", e->late}};
 }
 
-const char* word(onset::CertaintyLevel c) {
-  return c == onset::CertaintyLevel::exact     ? "exact"
-         : c == onset::CertaintyLevel::certify ? "certify"
+const char* word(onset::Exactness c) {
+  return c == onset::Exactness::exact     ? "exact"
+         : c == onset::Exactness::certify ? "certify"
                                                : "conservative";
 }
 
@@ -62,7 +62,7 @@ Json options_json(const onset::Options& o) {
           {"min_separation", o.min_separation},
           {"norm", o.norm == onset::Norm::maximum ? "maximum" : "euclidean"},
           {"max_checks", o.max_checks},
-          {"certainty", word(o.certainty)},
+          {"certainty", word(o.exactness)},
           {"threads", o.threads}};
 }
 

@@ -1,9 +1,9 @@
-// Included once per instruction set, with ONSET_KERNEL and ONSET_PACK_OPERATIONS defined.
+// Included once per instruction set, with ONSET_ISA and ONSET_PACK_OPERATIONS defined.
 #include "base/pack.hpp"
 #include "tests/base/simd/pack_operations.hpp"
 
 namespace onset {
-namespace ONSET_KERNEL {
+namespace ONSET_ISA {
 namespace {
 
 template <class V, class T>
@@ -33,12 +33,12 @@ void all_operations(const T* pa, const T* pb, const T* pc, T (*arithmetic)[V::la
 }
 
 }  // namespace
-}  // namespace ONSET_KERNEL
+}  // namespace ONSET_ISA
 
 namespace tests {
 
 PackResults ONSET_PACK_OPERATIONS(const PackInputs& in) {
-  using namespace ONSET_KERNEL;
+  using namespace ONSET_ISA;
   PackResults r{};
   all_operations<D4>(in.a, in.b, in.c, r.arithmetic_d, r.exact_d, r.masks);
   all_operations<F8>(in.x, in.y, in.z, r.arithmetic_f, r.exact_f, r.masks + 10);

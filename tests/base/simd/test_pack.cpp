@@ -3,7 +3,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "tests/base/simd/pack_operations.hpp"
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"

@@ -54,7 +54,7 @@ TEST_CASE("exact: neither a miss nor a false positive, whatever the tolerance an
   for_all(oracle::fuzz(16), 41, [&](const Query& query) {
     const oracle::Truth truth = oracle::exact_ccd(query);
     Options options;
-    options.certainty = CertaintyLevel::exact;
+    options.exactness = Exactness::exact;
     options.relative_tolerance = scenes::power_of_ten(choice, -14, -2);
     if (scenes::coin(choice)) options.max_checks = scenes::integer(choice, 1, 20);
     const QueryResult r = scenes::ccd(query, options);
@@ -74,7 +74,7 @@ TEST_CASE("certify: what is called certain is real, and touches by toi_hi", "[pr
   int certain = 0, left = 0;
   for_all(oracle::fuzz(16), 42, [&](const Query& query) {
     Options options;
-    options.certainty = CertaintyLevel::certify;
+    options.exactness = Exactness::certify;
     const QueryResult r = scenes::ccd(query, options);
     const oracle::Truth truth = oracle::exact_ccd(query);
     INFO(oracle::to_text(options, r) << " exact: " << truth.toi_lo << " " << truth.toi_hi);
@@ -96,7 +96,7 @@ TEST_CASE("certain with a separation: they do come as close", "[property][oracle
   int certain = 0;
   for_all(oracle::fuzz(8), 43, [&](const Query& query) {
     Options options;
-    options.certainty = CertaintyLevel::exact;
+    options.exactness = Exactness::exact;
     options.min_separation = 0.01 * oracle::extent(query);
     if (!(options.min_separation > 0x1p-1000)) return;
     const QueryResult r = scenes::ccd(query, options);
@@ -115,12 +115,12 @@ TEST_CASE("certain with a separation: they do come as close", "[property][oracle
 
 TEST_CASE("certainty: the same bytes from both kernels", "[determinism]") {
   for_all(oracle::fuzz(16), 44, [&](const Query& query) {
-    for (CertaintyLevel level : {CertaintyLevel::certify, CertaintyLevel::exact}) {
+    for (Exactness level : {Exactness::certify, Exactness::exact}) {
       Options options;
-      options.certainty = level;
-      options.kernel = Kernel::scalar;
+      options.exactness = level;
+      options.instruction_set = InstructionSet::scalar;
       const QueryResult scalar = scenes::ccd(query, options);
-      options.kernel = Kernel::automatic;
+      options.instruction_set = InstructionSet::automatic;
       CHECK(same(scalar, scenes::ccd(query, options)));
     }
   });
@@ -132,7 +132,7 @@ TEST_CASE("false positives of the hand-made queries", "[oracle][data]") {
   Options options;
   CHECK(count_hand_made(folder, 1e-6, options).false_positives <= 127);
   CHECK(count_hand_made(folder, 1e-12, options).false_positives <= 31);
-  options.certainty = CertaintyLevel::exact;
+  options.exactness = Exactness::exact;
   for (double tolerance : {1e-3, 1e-6, 1e-8, 1e-10, 1e-12}) {
     const Count count = count_hand_made(folder, tolerance, options);
     CHECK(count.false_positives == 0);

@@ -1,10 +1,10 @@
-// Included once per way of compiling, with ONSET_KERNEL, ONSET_KERNEL_VALUES, ONSET_CERTIFICATES and
+// Included once per way of compiling, with ONSET_ISA, ONSET_KERNEL_VALUES, ONSET_CERTIFICATES and
 // ONSET_CONTACT_VALUES defined.
 #include "narrowphase/kernel/kernel_text.inl"
 #include "tests/narrowphase/kernel/kernel_values.hpp"
 
 namespace onset {
-namespace ONSET_KERNEL {
+namespace ONSET_ISA {
 namespace {
 
 double first(const D4& v) {
@@ -114,7 +114,7 @@ tests::ContactValues contact(const KernelPairs& pairs, int row, double time, dou
 }
 
 }  // namespace
-}  // namespace ONSET_KERNEL
+}  // namespace ONSET_ISA
 
 namespace tests {
 
@@ -122,25 +122,25 @@ KernelValues ONSET_KERNEL_VALUES(bool edge_edge, const KernelPairs& pairs, int r
                                  const ValuesWanted& wanted) {
   KernelValues out = {};
   if (edge_edge) {
-    ONSET_KERNEL::double_values<4>(pairs, row, wanted, out);
-    ONSET_KERNEL::float_values<4>(pairs, row, wanted, out);
+    ONSET_ISA::double_values<4>(pairs, row, wanted, out);
+    ONSET_ISA::float_values<4>(pairs, row, wanted, out);
   } else {
-    ONSET_KERNEL::double_values<3>(pairs, row, wanted, out);
-    ONSET_KERNEL::float_values<3>(pairs, row, wanted, out);
+    ONSET_ISA::double_values<3>(pairs, row, wanted, out);
+    ONSET_ISA::float_values<3>(pairs, row, wanted, out);
   }
   return out;
 }
 
 Certificates ONSET_CERTIFICATES(bool edge_edge, const KernelPairs& pairs, int row,
                                 const CertificateState& state) {
-  return edge_edge ? ONSET_KERNEL::certificates<4>(pairs, row, state)
-                   : ONSET_KERNEL::certificates<3>(pairs, row, state);
+  return edge_edge ? ONSET_ISA::certificates<4>(pairs, row, state)
+                   : ONSET_ISA::certificates<3>(pairs, row, state);
 }
 
 ContactValues ONSET_CONTACT_VALUES(bool edge_edge, const KernelPairs& pairs, int row, double time,
                                    double width) {
-  return edge_edge ? ONSET_KERNEL::contact<4>(pairs, row, time, width)
-                   : ONSET_KERNEL::contact<3>(pairs, row, time, width);
+  return edge_edge ? ONSET_ISA::contact<4>(pairs, row, time, width)
+                   : ONSET_ISA::contact<3>(pairs, row, time, width);
 }
 
 }  // namespace tests

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 
 namespace onset::tests {
 
-inline std::vector<Kernel> kernels() {
-  std::vector<Kernel> all{Kernel::scalar};
-  if (has_avx2()) all.push_back(Kernel::avx2);
+inline std::vector<InstructionSet> kernels() {
+  std::vector<InstructionSet> all{InstructionSet::scalar};
+  if (has_avx2()) all.push_back(InstructionSet::avx2);
   return all;
 }
 

@@ -1,5 +1,5 @@
 // What single precision culls is apart: no contact, and never closer than the separation.
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/narrowphase/kernel/kernel_batch.hpp"

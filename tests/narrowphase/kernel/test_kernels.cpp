@@ -2,7 +2,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/narrowphase/kernel/kernel_batch.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <onset/onset.hpp>
 
-#include "base/dispatch.hpp"
+#include "base/instruction_set.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
 #include "tests/src/start/brute_intersections.hpp"
@@ -30,11 +30,11 @@ std::vector<Options> all_ways() {
   std::vector<Options> ways;
   for (const BroadPhaseMethod method :
        {BroadPhaseMethod::bvh, BroadPhaseMethod::hash, BroadPhaseMethod::brute})
-    for (const Kernel kernel : {Kernel::scalar, Kernel::avx2})
+    for (const InstructionSet kernel : {InstructionSet::scalar, InstructionSet::avx2})
       for (const int threads : {1, 2, 4}) {
-        if (kernel == Kernel::avx2 && !has_avx2()) continue;
+        if (kernel == InstructionSet::avx2 && !has_avx2()) continue;
         Options o;
-        o.broad_phase = method, o.kernel = kernel, o.threads = threads;
+        o.broad_phase = method, o.instruction_set = kernel, o.threads = threads;
         ways.push_back(o);
       }
   return ways;

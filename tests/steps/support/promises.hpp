@@ -23,7 +23,7 @@ std::string wrong_report(const Asked& asked, const SceneTruth& truth, const Step
                          Call call = Call::whole);
 
 // Every contact is in the set up to complete_until, none late, those at the start as such; at
-// CertaintyLevel::exact without separations no others.
+// Exactness::exact without separations no others.
 std::string wrong_set(const Asked& asked, const SceneTruth& truth, const ActiveSet& set);
 
 // The three answers of the pipeline agree with each other.

@@ -198,7 +198,7 @@ Options random_options(const StepScene& scene, Random& random) {
   if (integer(random, 0, 2) == 0)
     o.tolerance =
         std::max(0x1p-1074, size * scenes::power_of_ten(random, scenes::coin(random) ? -300 : -18, -2));
-  o.certainty = CertaintyLevel(integer(random, 0, 2));
+  o.exactness = Exactness(integer(random, 0, 2));
   o.norm = integer(random, 0, 3) ? Norm::euclidean : Norm::maximum;
   if (integer(random, 0, 4) == 0 && size > 0x1p-500 && size < 0x1p500)
     o.min_separation = scenes::coin(random) ? std::ldexp(std::round(size), -integer(random, 1, 10))
@@ -210,7 +210,7 @@ Options random_options(const StepScene& scene, Random& random) {
     o.max_checks = std::min<std::int64_t>(o.max_checks, 1000);
   }
   o.broad_phase = BroadPhaseMethod(integer(random, 0, 3));
-  o.kernel = scenes::coin(random) ? Kernel::scalar : Kernel::automatic;
+  o.instruction_set = scenes::coin(random) ? InstructionSet::scalar : InstructionSet::automatic;
   o.threads = 1;
   return o;
 }

@@ -6,7 +6,7 @@
 namespace onset::tests {
 
 static bool decides_exactly(const Asked& asked) {
-  return asked.options.certainty == CertaintyLevel::exact && asked.options.min_separation == 0 &&
+  return asked.options.exactness == Exactness::exact && asked.options.min_separation == 0 &&
          asked.thickness.empty();
 }
 

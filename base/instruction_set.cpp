@@ -1,0 +1,55 @@
+#include "base/instruction_set.hpp"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace onset {
+
+namespace {
+
+InstructionSet from_environment() {
+  const char* value = std::getenv("ONSET_KERNEL");
+  const std::string name = value == nullptr ? "" : value;
+  if (name.empty() || name == "automatic") return InstructionSet::automatic;
+  if (name == "scalar") return InstructionSet::scalar;
+  if (name == "avx2") return InstructionSet::avx2;
+  throw std::invalid_argument("ONSET_KERNEL=" + name + ": expected scalar, avx2 or automatic");
+}
+
+}  // namespace
+
+bool has_avx2() {
+#ifdef ONSET_HAVE_AVX2
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
+InstructionSet resolve_instruction_set(InstructionSet requested) {
+  const InstructionSet set = requested == InstructionSet::automatic ? from_environment() : requested;
+  switch (set) {
+    case InstructionSet::scalar:
+      return InstructionSet::scalar;
+    case InstructionSet::avx2:
+      if (!has_avx2()) throw std::invalid_argument("instruction set avx2: not supported by this processor or build");
+      return InstructionSet::avx2;
+    case InstructionSet::automatic:
+      return has_avx2() ? InstructionSet::avx2 : InstructionSet::scalar;
+  }
+  throw std::invalid_argument("instruction set " + std::to_string(int(set)) + ": unknown");
+}
+
+const char* to_string(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::scalar:
+      return "scalar";
+    case InstructionSet::avx2:
+      return "avx2";
+    default:
+      return "automatic";
+  }
+}
+
+}  // namespace onset
