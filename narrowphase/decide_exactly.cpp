@@ -24,7 +24,7 @@ ExactAnswer NarrowPhase::decide_exactly(const Case& c, const KernelResult& found
   }
   if (!uses_exact(c)) return {Answer::unknown, {}};
   const bool complete = decides_completely(c);
-  if (!complete && found.verdict == Verdict::budget)
+  if (!complete && found.verdict == Verdict::max_checks)
     return {Answer::unknown, {}};  // as little as was asked for
   const ExactPair pair = exact_pair_of(c);
   if (from > 0) {

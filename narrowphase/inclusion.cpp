@@ -37,7 +37,7 @@ class Search {
       const Box box = boxes_[i];
       if (small(box)) return stop(InclusionResult::End::contact, box);
       if (result_.checks + 2 > in_.max_checks || boxes_in_use() + 1 >= kInclusionBoxes)
-        return stop(InclusionResult::End::budget, box);
+        return stop(InclusionResult::End::max_checks, box);
       order_.pop();
       free_.push_back(i);
       split(box);

@@ -18,9 +18,9 @@ struct InclusionInput {
 };
 
 struct InclusionResult {
-  enum class End { free, contact, budget } end = End::free;
+  enum class End { free, contact, max_checks } end = End::free;
   double t = 1;             // certified apart on [t_begin, t); contact: some point is within d + delta near t
-  double distance = 0;      // scaled upper bound of the distance at t (contact and budget)
+  double distance = 0;      // scaled upper bound of the distance at t (contact and max_checks)
   std::int64_t checks = 0;  // boxes examined
 };
 

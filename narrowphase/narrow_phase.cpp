@@ -41,7 +41,7 @@ std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair p) 
 
 void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
   candidates += o.candidates, after_culls += o.after_culls, inclusion += o.inclusion;
-  contacts += o.contacts, budget += o.budget, checks += o.checks;
+  contacts += o.contacts, gave_up += o.gave_up, checks += o.checks;
   const auto before = [](IdPair p, IdPair q) { return p.a != q.a ? p.a < q.a : p.b < q.b; };
   if (o.most_checks > most_checks || (o.most_checks == most_checks && before(o.worst, worst)))
     most_checks = o.most_checks, worst = o.worst;
@@ -62,7 +62,7 @@ void NarrowPhaseStats::note_checks(IdPair pair, std::int64_t n) {
 }
 
 void NarrowPhaseStats::note_outcome(const PairResult& r) {
-  budget += r.outcome == Outcome::budget;
+  gave_up += r.outcome == Outcome::max_checks;
   achieved_tolerance = std::max(achieved_tolerance, r.tolerance);
 }
 
@@ -232,7 +232,7 @@ KernelResult NarrowPhase::push_on(const Case& c, const Corners& corners, KernelR
     if (t == r.t && patient) return r;
     if (r.checks >= c.input.max_checks) {
       r.t = t;
-      r.verdict = Verdict::budget;
+      r.verdict = Verdict::max_checks;
       return r;
     }
     patient = t == r.t;
@@ -250,7 +250,7 @@ KernelResult NarrowPhase::carry_on(const Case& c, const KernelResult& checked, N
   KernelResult found = checked;
   if (!inclusion_only && found.verdict == Verdict::stalled) found = push_on(c, corners_of(c), found);
   stats.checks += found.checks - checked.checks;
-  searched = found.verdict == Verdict::stalled || (found.verdict == Verdict::budget && inclusion_only);
+  searched = found.verdict == Verdict::stalled || (found.verdict == Verdict::max_checks && inclusion_only);
   if (!searched) return found;
   const InclusionResult result =
       find_first_inclusion({corners_of(c), found.t, found.separation, found.delta,
@@ -260,7 +260,7 @@ KernelResult NarrowPhase::carry_on(const Case& c, const KernelResult& checked, N
   found.t = result.t;
   found.distance = result.distance;
   found.verdict = result.end == InclusionResult::End::free     ? Verdict::free
-                  : result.end == InclusionResult::End::budget ? Verdict::budget
+                  : result.end == InclusionResult::End::max_checks ? Verdict::max_checks
                                                                : Verdict::contact;
   return found;
 }
@@ -306,7 +306,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   if (later)
     found.distance = std::min(
         found.distance, 2 * corners_of(c).rho * (exact.time.hi - exact.time.lo) * (1 + 0x1p-40) + 0x1p-1074);
-  if (found.verdict == Verdict::budget && !real) r.outcome = Outcome::budget;
+  if (found.verdict == Verdict::max_checks && !real) r.outcome = Outcome::max_checks;
   r.toi = r.step_limit = found.t;
   if (real || seen_within_separation(c, found)) r.certainty = r.limit_certainty = Certainty::certain;
   if (real && from == 0) r.toi_hi = exact.time.hi;
@@ -341,7 +341,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Bo
     later.t = parting.t;
     later.delta = std::max(
         std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
-    later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::budget;
+    later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::max_checks;
     std::vector<PairResult> next;
     KernelPairs whole = c.input;
     whole.t_max = whole.cull_t_max = 1;  // what is reported at 0 is reported with its step_limit

@@ -56,7 +56,7 @@ struct PairResult {
 };
 
 struct NarrowPhaseStats {
-  std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, budget = 0, checks = 0,
+  std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, gave_up = 0, checks = 0,
                most_checks = 0;
   IdPair worst{-1, -1};                      // the first pair with most_checks
   std::array<std::int64_t, 16> histogram{};  // of checks: Stats::checks_histogram
@@ -67,7 +67,7 @@ struct NarrowPhaseStats {
   IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
   void note_checks(IdPair pair, std::int64_t checks);  // >= 1
-  void note_outcome(const PairResult& result);         // budget, achieved_tolerance
+  void note_outcome(const PairResult& result);         // gave_up, achieved_tolerance
 };
 
 // What one thread keeps between batches.

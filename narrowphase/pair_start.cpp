@@ -82,7 +82,7 @@ KernelResult NarrowPhase::advance_from(const Case& c, const Corners& corners, co
   r.t = std::min(until, 1.0);
   r.distance = at.upper, r.delta = delta, r.separation = d, r.unit = unit, r.checks = 1;
   r.touched_by = 2;
-  r.verdict = until > 1 ? Verdict::free : Verdict::budget;
+  r.verdict = until > 1 ? Verdict::free : Verdict::max_checks;
   if (until > 1 || c.input.max_checks <= 1) return r;
   const KernelResume resume{r.t, d, delta, 1, 0};
   advance(c, &resume, r);

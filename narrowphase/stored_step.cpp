@@ -68,14 +68,14 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   const bool sharper = in_.gap_share == 0 && (contact.empty() || times_are_exact());
   if (sharper && found.verdict == Verdict::contact && found.t > 0) {
     found.delta = kLeastTolerance * corners_of(c).rho;
-    found.verdict = found.checks < c.input.max_checks ? Verdict::stalled : Verdict::budget;
+    found.verdict = found.checks < c.input.max_checks ? Verdict::stalled : Verdict::max_checks;
     found = carry_on(c, found, stats, searched);
   }
   const bool free = found.verdict == Verdict::free;
   if (free && limit.from == 0 && contact.empty()) return;
   // A share that would be lost is a contact with what is kept.
-  const bool spent = found.verdict == Verdict::budget && found.t > 0 && found.checks >= c.input.max_checks;
-  const Outcome outcome = spent                            ? Outcome::budget
+  const bool spent = found.verdict == Verdict::max_checks && found.t > 0 && found.checks >= c.input.max_checks;
+  const Outcome outcome = spent                            ? Outcome::max_checks
                           : in_.gap_share > 0 && found.t > 0 ? Outcome::contact
                                                         : Outcome::below_rounding;
   PairResult r{c.pair, INFINITY, INFINITY, 0, outcome};
@@ -120,7 +120,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
   decide(exact, stats, contact);
   const Outcome outcome = contact.empty() ? Outcome::free : contact[0].outcome;
   KernelResult blocked{};
-  blocked.unit = corners.unit, blocked.verdict = Verdict::budget;
+  blocked.unit = corners.unit, blocked.verdict = Verdict::max_checks;
   if (outcome == Outcome::initial_contact) return {0, blocked};
   if (rests(exact_pair_of(c))) {  // nothing is rounded
     blocked.verdict = Verdict::free;
@@ -139,7 +139,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_of_small_gap(const Case& c, const Co
   note_kept(c, 0, stats);
   if (clear > 1 || (!contact.empty() && clear >= contact[0].toi)) {
     StoredLimit blocked{};
-    blocked.found.unit = corners.unit, blocked.found.verdict = Verdict::budget;
+    blocked.found.unit = corners.unit, blocked.found.verdict = Verdict::max_checks;
     return blocked;
   }
   return {clear, limit_from(c, corners, bounds_at(c, corners, clear), clear, kept, stats)};
@@ -154,7 +154,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_after_parting(const Case& c, const C
   const Parting parting = find_parting_of(c, corners, start, d, start.lower <= 0 && touches_at_start(c));
   StoredLimit limit{};
   limit.found.unit = corners.unit, limit.found.t = parting.t;
-  limit.found.verdict = parting.t == 1 ? Verdict::free : Verdict::budget;
+  limit.found.verdict = parting.t == 1 ? Verdict::free : Verdict::max_checks;
   note_kept(c, 0, stats);
   if (start.lower <= 2 * rounding + 8 * noise) {
     limit.from = clear_time(c, corners, rounding + 2 * noise);
@@ -164,7 +164,7 @@ NarrowPhase::StoredLimit NarrowPhase::limit_after_parting(const Case& c, const C
       clear = limit_from(c, corners, bounds_at(c, corners, limit.from), limit.from, rounding - d, stats);
     if (!clears || (clear.verdict != Verdict::free && clear.t < parting.t)) {
       limit.from = INFINITY;  // not known to stay clear
-      limit.found.t = 0, limit.found.verdict = Verdict::budget;
+      limit.found.t = 0, limit.found.verdict = Verdict::max_checks;
       return limit;
     }
   }

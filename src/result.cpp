@@ -12,8 +12,8 @@ const char* to_string(Outcome outcome) {
       return "initial_contact";
     case Outcome::initial_separating:
       return "initial_separating";
-    case Outcome::budget:
-      return "budget";
+    case Outcome::max_checks:
+      return "max_checks";
     case Outcome::below_rounding:
       return "below_rounding";
     case Outcome::non_finite:

@@ -26,7 +26,7 @@ struct Tally {
     positives += result.collides();
     false_negatives += truth && !result.collides();
     false_positives += !truth && result.collides();
-    budget += result.outcome == onset::Outcome::budget;
+    budget += result.outcome == onset::Outcome::max_checks;
     tolerance = std::max(tolerance, result.tolerance);
   }
   void add(const Tally& other) {

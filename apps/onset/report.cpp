@@ -49,7 +49,7 @@ Json to_json(const onset::Stats& s) {
           {"contacts", to_json(s.contacts)},
           {"after_culls", to_json(s.after_culls)},
           {"inclusion", to_json(s.inclusion)},
-          {"budget", to_json(s.budget)},
+          {"budget", to_json(s.gave_up)},
           {"checks", s.checks},
           {"max_checks_of_a_pair", s.max_checks_of_a_pair},
           {"checks_histogram", s.checks_histogram},

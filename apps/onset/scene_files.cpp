@@ -56,7 +56,7 @@ void write_files(const SceneFiles& files, const Scene& scene, const onset::Optio
                      [&](std::size_t i, std::size_t j) { return set.toi[i] < set.toi[j]; });
     std::vector<DumpedPair> pairs;
     for (std::size_t k = 0; k < order.size(); ++k) {
-      const bool budget = set.status[order[k]] == onset::Outcome::budget;
+      const bool budget = set.status[order[k]] == onset::Outcome::max_checks;
       if (k < kDumpedContacts || budget) pairs.push_back({set.pair(order[k]), budget ? "budget" : "contact"});
     }
     add_worst(pairs, set.stats);

@@ -21,7 +21,7 @@ enum class Outcome : std::uint8_t {
   initial_contact,     // touching, or closer than the separation, at t = 0, and not certified to part: toi 0
   initial_separating,  // the same at t = 0, but the motion parts the pair: toi 0, and a step may go on to
                        // step_limit
-  budget,              // max_checks spent: free until toi, undecided after
+  max_checks,          // spent: free until toi, undecided after
   // Of a step: a pair comes, or starts, so close that storing positions in doubles could close its gap. The step ends
   // before that, at 0 where the gap is too small from the start. StepResult::toi says whether the exact motion touches.
   below_rounding,
@@ -64,7 +64,7 @@ struct Stats {
   PairCounts contacts;     // pairs not certified free; of a step: or that storing positions limits
   PairCounts after_culls;  // candidates that the single-precision culls could not separate
   PairCounts inclusion;    // candidates that needed the inclusion root finder
-  PairCounts budget;       // candidates that spent max_checks
+  PairCounts gave_up;      // candidates that spent max_checks
   std::int64_t checks = 0, max_checks_of_a_pair = 0;
   // [k]: candidates left by the culls that took 2^k checks or more, less than 2^(k + 1); the last: 2^15 or
   // more.

@@ -137,7 +137,7 @@ inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const Kernel
     verdict[l] = -1;
     if ((done | beyond) & bit) verdict[l] = int(Verdict::free);
     else if (contact & bit) verdict[l] = int(Verdict::contact);
-    else if (spent & bit) verdict[l] = int(Verdict::budget);
+    else if (spent & bit) verdict[l] = int(Verdict::max_checks);
     else if (stuck & bit) verdict[l] = int(Verdict::stalled);
   }
 }
@@ -194,7 +194,7 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   for (int l = 0; l < 4; ++l) {
     // Near contact at 0, yet certified until later: to be looked at there, if there is a check left.
     if (verdict[l] == int(Verdict::contact) && (moved >> l & 1))
-      verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::budget);
+      verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::max_checks);
     if (initial >> l & 1) verdict[l] = int(Verdict::initial);
   }
 }

@@ -35,7 +35,7 @@ enum class Verdict : int {
   contact,  // within d + delta at t
   initial,  // not certifiably farther apart than d at t = 0, or not by enough to be stored
   stalled,  // apart until t, progress slow
-  budget,   // max_checks spent: apart until t
+  max_checks,  // spent: apart until t
 };
 
 // Where a pair ended; scaled lengths are in units of `unit` (a power of two, model length).

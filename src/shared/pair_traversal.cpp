@@ -288,7 +288,7 @@ void copy_counts(const TraversalResult& traversal, Stats& stats) {
   stats.after_culls = both(&NarrowPhaseStats::after_culls);
   stats.inclusion = both(&NarrowPhaseStats::inclusion);
   stats.contacts = both(&NarrowPhaseStats::contacts);
-  stats.budget = both(&NarrowPhaseStats::budget);
+  stats.gave_up = both(&NarrowPhaseStats::gave_up);
   stats.checks = both(&NarrowPhaseStats::checks).total();
   stats.max_checks_of_a_pair = std::max(traversal.vertex_face.most_checks, traversal.edge_edge.most_checks);
   for (std::size_t k = 0; k < stats.checks_histogram.size(); ++k)

@@ -20,7 +20,7 @@ bool initial(const QueryResult& r) {
 // What the two answers say about the same motion cannot both hold. Both are conservative and say how far
 // beyond the separation they reported; the promises bound that by the tolerance.
 std::string contradiction(const Query& query, const Options& o, const QueryResult& a, const QueryResult& b) {
-  if (a.outcome == Outcome::budget || b.outcome == Outcome::budget) return {};
+  if (a.outcome == Outcome::max_checks || b.outcome == Outcome::max_checks) return {};
   const double floor = 2e-14 * extent(query);
   if (initial(a) != initial(b) && oracle::compare_distance(query, 0, o.min_separation + floor, o.norm) > 0)
     return "only one starts in contact";

@@ -55,7 +55,7 @@ std::string wrong_report(const scenes::Query& query, const Options& options, con
 
   if (!result.collides()) return {};
 
-  if (result.outcome == Outcome::budget) return {};
+  if (result.outcome == Outcome::max_checks) return {};
   if (tolerance_understated(query, options, result))
     return "farther apart at toi than the reported tolerance";
   const double size = extent(query), rounding = 0x1p-42 * (size + options.min_separation) + 0x1p-1070;

@@ -84,7 +84,7 @@ struct Row {
     CAPTURE(size, least, noise, set.gap[0], n[0], n[1], n[2]);
     CHECK(size <= least + noise);
     CHECK(std::fabs(set.gap[0] - size) <= noise);
-    if (set.status[0] != Outcome::budget)
+    if (set.status[0] != Outcome::max_checks)
       CHECK(size <= (d + set.stats.achieved_tolerance) * (1 + 0x1p-40) + noise);
 
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

@@ -102,7 +102,7 @@ TEST_CASE("sliding and coplanar pairs are decided within a few thousand checks",
         const QueryResult result = scenes::ccd(query, options);
         INFO(family.name << " " << to_text(query) << " " << oracle::to_text(options, result));
         CHECK(oracle::broken_promise(query, options, result, oracle::known(oracle::exact_ccd(query))) == "");
-        ++queries, budget += result.outcome == Outcome::budget;
+        ++queries, budget += result.outcome == Outcome::max_checks;
       }
     }
   }

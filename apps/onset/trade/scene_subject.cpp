@@ -88,7 +88,7 @@ class SceneSubject : public Subject {
     const onset::Stats& s = set.stats;
     a.asked = s.candidates.total(), a.positives = std::int64_t(set.size());
     for (const onset::Certainty c : set.certainty) a.certain += c != onset::Certainty::within_tolerance;
-    a.budget = s.budget.total(), a.inclusion = s.inclusion.total(), a.checks = s.checks;
+    a.budget = s.gave_up.total(), a.inclusion = s.inclusion.total(), a.checks = s.checks;
     a.tolerance = s.tolerance, a.achieved_tolerance = s.achieved_tolerance;
     if (const std::ptrdiff_t first = set.earliest(); first >= 0) a.earliest = set.toi[std::size_t(first)];
     const std::vector<Found> rows = found(set);

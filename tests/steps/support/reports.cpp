@@ -48,7 +48,7 @@ static std::string wrong_outcome(const SceneTruth& truth, const StepResult& r, b
       return r.toi == INFINITY ? "" : "free, but toi is finite";
     case Outcome::contact:
     case Outcome::initial_contact:
-    case Outcome::budget:
+    case Outcome::max_checks:
     case Outcome::below_rounding:
       if (!named) return "a pair limits, but none is named";
       return r.step < 1 ? "" : "a pair limits, but the step is 1";
