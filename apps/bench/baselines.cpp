@@ -16,11 +16,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "error.hpp"
-#include "finder.hpp"
-#include "machine.hpp"
-#include "timing.hpp"
-#include "truth_file.hpp"
+#include "bench/finder.hpp"
+#include "bench/machine.hpp"
+#include "bench/timing.hpp"
+#include "onset/error.hpp"
+#include "onset/truth_file.hpp"
 
 namespace {
 

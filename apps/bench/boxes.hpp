@@ -6,7 +6,7 @@
 #include <onset/mesh.hpp>
 #include <vector>
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "error.hpp"
-#include "peer.hpp"
-#include "scene.hpp"
-#include "stored_pairs.hpp"
-#include "timing.hpp"
+#include "bench/peer.hpp"
+#include "bench/stored_pairs.hpp"
+#include "bench/timing.hpp"
+#include "onset/error.hpp"
+#include "onset/scene.hpp"
 
 namespace {
 

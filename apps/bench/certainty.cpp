@@ -11,9 +11,9 @@
 #include <cstring>
 #include <vector>
 
-#include "error.hpp"
-#include "scene.hpp"
-#include "timing.hpp"
+#include "bench/timing.hpp"
+#include "onset/error.hpp"
+#include "onset/scene.hpp"
 
 namespace {
 

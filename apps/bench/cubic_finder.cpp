@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "finder.hpp"
-#include "finder_motion.hpp"
+#include "bench/finder.hpp"
+#include "bench/finder_motion.hpp"
 
 namespace app {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-#include "peer.hpp"
+#include "bench/peer.hpp"
 
 namespace app {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "peer.hpp"
+#include "bench/peer.hpp"
 
 namespace app {
 namespace {

@@ -4,7 +4,7 @@
 #include <onset/query.hpp>
 #include <onset/result.hpp>
 
-#include "query_file.hpp"
+#include "onset/query_file.hpp"
 
 namespace app {
 

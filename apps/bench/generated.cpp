@@ -1,11 +1,11 @@
-#include "generated.hpp"
+#include "bench/generated.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

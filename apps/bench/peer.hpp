@@ -5,7 +5,7 @@
 #include <onset/onset.hpp>
 #include <string>
 
-#include "boxes.hpp"
+#include "bench/boxes.hpp"
 
 namespace app {
 

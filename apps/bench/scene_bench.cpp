@@ -1,11 +1,11 @@
-#include "scene_bench.hpp"
+#include "bench/scene_bench.hpp"
 
 #include <array>
 #include <cstring>
 #include <functional>
 #include <stdexcept>
 
-#include "memory.hpp"
+#include "bench/memory.hpp"
 
 namespace app {
 namespace {

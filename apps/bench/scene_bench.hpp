@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scene.hpp"
-#include "timing.hpp"
+#include "bench/timing.hpp"
+#include "onset/scene.hpp"
 
 namespace app {
 

@@ -17,10 +17,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "error.hpp"
-#include "scene.hpp"
-#include "stored_pairs.hpp"
-#include "timing.hpp"
+#include "bench/stored_pairs.hpp"
+#include "bench/timing.hpp"
+#include "onset/error.hpp"
+#include "onset/scene.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "stored_pairs.hpp"
+#include "bench/stored_pairs.hpp"
 
 #include <tbb/task_arena.h>
 

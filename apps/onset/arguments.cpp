@@ -1,4 +1,4 @@
-#include "arguments.hpp"
+#include "onset/arguments.hpp"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -7,7 +7,7 @@
 #include <functional>
 #include <map>
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 namespace {

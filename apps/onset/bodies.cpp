@@ -1,6 +1,6 @@
-#include "bodies.hpp"
+#include "onset/bodies.hpp"
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 namespace {

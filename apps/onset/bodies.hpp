@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene.hpp"
+#include "onset/scene.hpp"
 
 namespace app {
 

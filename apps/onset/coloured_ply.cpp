@@ -1,8 +1,8 @@
-#include "coloured_ply.hpp"
+#include "onset/coloured_ply.hpp"
 
 #include <algorithm>
 
-#include "output.hpp"
+#include "onset/output.hpp"
 
 namespace app {
 

@@ -1,10 +1,10 @@
 // onset active-set: what touches during the step.
 #include <algorithm>
 
-#include "progress.hpp"
-#include "report.hpp"
-#include "scene_command.hpp"
-#include "scene_files.hpp"
+#include "onset/progress.hpp"
+#include "onset/report.hpp"
+#include "onset/scene_command.hpp"
+#include "onset/scene_files.hpp"
 
 namespace app {
 namespace {

@@ -3,15 +3,15 @@
 #include <functional>
 #include <memory>
 
-#include "arguments.hpp"
-#include "bodies.hpp"
-#include "commands.hpp"
-#include "error.hpp"
-#include "generated.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "scene_bench.hpp"
-#include "scene_command.hpp"
+#include "bench/generated.hpp"
+#include "bench/scene_bench.hpp"
+#include "onset/arguments.hpp"
+#include "onset/bodies.hpp"
+#include "onset/commands.hpp"
+#include "onset/error.hpp"
+#include "onset/progress.hpp"
+#include "onset/report.hpp"
+#include "onset/scene_command.hpp"
 
 namespace app {
 namespace {

@@ -1,7 +1,7 @@
 // onset candidates: the broad phase alone.
-#include "progress.hpp"
-#include "report.hpp"
-#include "scene_command.hpp"
+#include "onset/progress.hpp"
+#include "onset/report.hpp"
+#include "onset/scene_command.hpp"
 
 namespace app {
 namespace {

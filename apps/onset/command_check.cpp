@@ -1,14 +1,14 @@
 // onset check: whether a step can start here, and what is in the way.
 #include <memory>
 
-#include "bodies.hpp"
-#include "commands.hpp"
-#include "error.hpp"
-#include "places.hpp"
-#include "progress.hpp"
-#include "report.hpp"
-#include "scene_command.hpp"
-#include "start_report.hpp"
+#include "onset/bodies.hpp"
+#include "onset/commands.hpp"
+#include "onset/error.hpp"
+#include "onset/places.hpp"
+#include "onset/progress.hpp"
+#include "onset/report.hpp"
+#include "onset/scene_command.hpp"
+#include "onset/start_report.hpp"
 
 namespace app {
 namespace {

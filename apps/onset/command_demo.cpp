@@ -4,12 +4,12 @@
 #include <memory>
 #include <onset/onset.hpp>
 
-#include "arguments.hpp"
-#include "coloured_ply.hpp"
-#include "commands.hpp"
-#include "demo_scene.hpp"
-#include "progress.hpp"
-#include "report.hpp"
+#include "onset/arguments.hpp"
+#include "onset/coloured_ply.hpp"
+#include "onset/commands.hpp"
+#include "onset/demo_scene.hpp"
+#include "onset/progress.hpp"
+#include "onset/report.hpp"
 
 namespace app {
 namespace {

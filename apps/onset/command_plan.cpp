@@ -3,11 +3,11 @@
 #include <set>
 #include <utility>
 
-#include "bodies.hpp"
-#include "commands.hpp"
-#include "report.hpp"
-#include "scene.hpp"
-#include "scene_command.hpp"
+#include "onset/bodies.hpp"
+#include "onset/commands.hpp"
+#include "onset/report.hpp"
+#include "onset/scene.hpp"
+#include "onset/scene_command.hpp"
 
 namespace app {
 namespace {

@@ -4,13 +4,13 @@
 #include <chrono>
 #include <memory>
 
-#include "arguments.hpp"
-#include "commands.hpp"
-#include "error.hpp"
-#include "input_file.hpp"
-#include "progress.hpp"
-#include "query_dump.hpp"
-#include "report.hpp"
+#include "onset/arguments.hpp"
+#include "onset/commands.hpp"
+#include "onset/error.hpp"
+#include "onset/input_file.hpp"
+#include "onset/progress.hpp"
+#include "onset/query_dump.hpp"
+#include "onset/report.hpp"
 
 namespace app {
 namespace {

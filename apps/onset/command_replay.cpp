@@ -2,12 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "arguments.hpp"
-#include "commands.hpp"
-#include "error.hpp"
-#include "progress.hpp"
-#include "query_dump.hpp"
-#include "report.hpp"
+#include "onset/arguments.hpp"
+#include "onset/commands.hpp"
+#include "onset/error.hpp"
+#include "onset/progress.hpp"
+#include "onset/query_dump.hpp"
+#include "onset/report.hpp"
 
 namespace app {
 namespace {

@@ -1,8 +1,8 @@
 // onset step: how far the motion can go.
-#include "progress.hpp"
-#include "report.hpp"
-#include "scene_command.hpp"
-#include "scene_files.hpp"
+#include "onset/progress.hpp"
+#include "onset/report.hpp"
+#include "onset/scene_command.hpp"
+#include "onset/scene_files.hpp"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-#include "demo_scene.hpp"
+#include "onset/demo_scene.hpp"
 
 #include <algorithm>
 #include <array>

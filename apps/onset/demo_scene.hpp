@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

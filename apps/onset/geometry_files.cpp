@@ -1,9 +1,9 @@
-#include "geometry_files.hpp"
+#include "onset/geometry_files.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "ply_layer.hpp"
+#include "onset/ply_layer.hpp"
 
 namespace app {
 namespace {

@@ -5,7 +5,7 @@
 #include <onset/onset.hpp>
 #include <string>
 
-#include "scene.hpp"
+#include "onset/scene.hpp"
 
 namespace app {
 

@@ -1,10 +1,10 @@
-#include "input_file.hpp"
+#include "onset/input_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 

@@ -4,8 +4,8 @@
 #include <exception>
 #include <string>
 
-#include "commands.hpp"
-#include "error.hpp"
+#include "onset/commands.hpp"
+#include "onset/error.hpp"
 
 namespace {
 

@@ -1,10 +1,10 @@
-#include "merged_corners.hpp"
+#include "onset/merged_corners.hpp"
 
 #include <algorithm>
 
-#include "error.hpp"
-#include "places.hpp"
-#include "text_lines.hpp"
+#include "onset/error.hpp"
+#include "onset/places.hpp"
+#include "onset/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -1,7 +1,7 @@
 // STL files name no vertices: which of their corners are one.
 #pragma once
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

@@ -1,10 +1,10 @@
-#include "mesh_builder.hpp"
+#include "onset/mesh_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

@@ -1,4 +1,4 @@
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <map>
 
-#include "error.hpp"
-#include "input_file.hpp"
-#include "mesh_readers.hpp"
+#include "onset/error.hpp"
+#include "onset/input_file.hpp"
+#include "onset/mesh_readers.hpp"
 
 namespace app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

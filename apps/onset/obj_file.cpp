@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "mesh_builder.hpp"
-#include "mesh_readers.hpp"
-#include "text_lines.hpp"
+#include "onset/mesh_builder.hpp"
+#include "onset/mesh_readers.hpp"
+#include "onset/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -1,10 +1,10 @@
-#include "output.hpp"
+#include "onset/output.hpp"
 
 #include <cerrno>
 #include <cstdarg>
 #include <cstring>
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 

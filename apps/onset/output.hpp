@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "arguments.hpp"
+#include "onset/arguments.hpp"
 
 namespace app {
 

@@ -1,4 +1,4 @@
-#include "places.hpp"
+#include "onset/places.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

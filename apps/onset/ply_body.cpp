@@ -1,9 +1,9 @@
-#include "ply_body.hpp"
+#include "onset/ply_body.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "text_lines.hpp"
+#include "onset/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "ply_header.hpp"
+#include "onset/ply_header.hpp"
 
 namespace app {
 

@@ -2,9 +2,9 @@
 // counts that no file of that length can hold, and cannot tell the line of a fault.
 #include <algorithm>
 
-#include "mesh_readers.hpp"
-#include "ply_body.hpp"
-#include "text_lines.hpp"
+#include "onset/mesh_readers.hpp"
+#include "onset/ply_body.hpp"
+#include "onset/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -1,10 +1,10 @@
-#include "ply_header.hpp"
+#include "onset/ply_header.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-#include "text_lines.hpp"
+#include "onset/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh_builder.hpp"
+#include "onset/mesh_builder.hpp"
 
 namespace app {
 

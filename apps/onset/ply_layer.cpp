@@ -1,7 +1,7 @@
-#include "ply_layer.hpp"
+#include "onset/ply_layer.hpp"
 
-#include "coloured_ply.hpp"
-#include "output.hpp"
+#include "onset/coloured_ply.hpp"
+#include "onset/output.hpp"
 
 namespace app {
 

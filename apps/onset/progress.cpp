@@ -1,4 +1,4 @@
-#include "progress.hpp"
+#include "onset/progress.hpp"
 
 #include <unistd.h>
 

@@ -1,13 +1,13 @@
-#include "query_dump.hpp"
+#include "onset/query_dump.hpp"
 
 #include <cmath>
 
 #include <filesystem>
 #include <fstream>
 
-#include "error.hpp"
-#include "rational.hpp"
-#include "report.hpp"
+#include "onset/error.hpp"
+#include "onset/rational.hpp"
+#include "onset/report.hpp"
 
 namespace app {
 namespace {

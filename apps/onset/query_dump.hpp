@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "mesh_file.hpp"
-#include "output.hpp"
-#include "query_file.hpp"
+#include "onset/mesh_file.hpp"
+#include "onset/output.hpp"
+#include "onset/query_file.hpp"
 
 namespace app {
 

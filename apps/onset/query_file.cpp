@@ -1,11 +1,11 @@
-#include "query_file.hpp"
+#include "onset/query_file.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-#include "error.hpp"
-#include "input_file.hpp"
-#include "rational.hpp"
+#include "onset/error.hpp"
+#include "onset/input_file.hpp"
+#include "onset/rational.hpp"
 
 namespace app {
 namespace {

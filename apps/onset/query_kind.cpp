@@ -1,8 +1,8 @@
 #include <cctype>
 #include <filesystem>
 
-#include "error.hpp"
-#include "query_file.hpp"
+#include "onset/error.hpp"
+#include "onset/query_file.hpp"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-#include "rational.hpp"
+#include "onset/rational.hpp"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-#include "report.hpp"
+#include "onset/report.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <onset/result.hpp>
 #include <string>
 
-#include "output.hpp"
+#include "onset/output.hpp"
 
 namespace app {
 

@@ -1,13 +1,13 @@
-#include "scene.hpp"
+#include "onset/scene.hpp"
 
 #include <algorithm>
 #include <set>
 #include <stdexcept>
 
-#include "error.hpp"
-#include "merged_corners.hpp"
-#include "text_lines.hpp"
-#include "triangulate.hpp"
+#include "onset/error.hpp"
+#include "onset/merged_corners.hpp"
+#include "onset/text_lines.hpp"
+#include "onset/triangulate.hpp"
 
 namespace app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

@@ -1,12 +1,12 @@
-#include "scene_command.hpp"
+#include "onset/scene_command.hpp"
 
 #include <algorithm>
 #include <memory>
 
-#include "arguments.hpp"
-#include "bodies.hpp"
-#include "places.hpp"
-#include "report.hpp"
+#include "onset/arguments.hpp"
+#include "onset/bodies.hpp"
+#include "onset/places.hpp"
+#include "onset/report.hpp"
 
 namespace app {
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "commands.hpp"
-#include "output.hpp"
-#include "scene.hpp"
+#include "onset/commands.hpp"
+#include "onset/output.hpp"
+#include "onset/scene.hpp"
 
 namespace app {
 

@@ -1,10 +1,10 @@
-#include "scene_files.hpp"
+#include "onset/scene_files.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "geometry_files.hpp"
-#include "query_dump.hpp"
+#include "onset/geometry_files.hpp"
+#include "onset/query_dump.hpp"
 
 namespace app {
 namespace {

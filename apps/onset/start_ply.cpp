@@ -1,7 +1,7 @@
 #include <set>
 
-#include "coloured_ply.hpp"
-#include "start_report.hpp"
+#include "onset/coloured_ply.hpp"
+#include "onset/start_report.hpp"
 
 namespace app {
 namespace {

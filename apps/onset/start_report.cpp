@@ -1,8 +1,8 @@
-#include "start_report.hpp"
+#include "onset/start_report.hpp"
 
 #include <algorithm>
 
-#include "report.hpp"
+#include "onset/report.hpp"
 
 namespace app {
 namespace {

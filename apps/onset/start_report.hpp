@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "output.hpp"
-#include "scene.hpp"
+#include "onset/output.hpp"
+#include "onset/scene.hpp"
 
 namespace app {
 

@@ -1,8 +1,8 @@
 #include <cstring>
 
-#include "mesh_builder.hpp"
-#include "mesh_readers.hpp"
-#include "text_lines.hpp"
+#include "onset/mesh_builder.hpp"
+#include "onset/mesh_readers.hpp"
+#include "onset/text_lines.hpp"
 
 namespace app {
 namespace {

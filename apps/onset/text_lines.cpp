@@ -1,4 +1,4 @@
-#include "text_lines.hpp"
+#include "onset/text_lines.hpp"
 
 #include <algorithm>
 #include <charconv>

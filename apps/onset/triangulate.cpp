@@ -1,9 +1,9 @@
-#include "triangulate.hpp"
+#include "onset/triangulate.hpp"
 
 #include <cmath>
 #include <cstddef>
 
-#include "error.hpp"
+#include "onset/error.hpp"
 
 namespace app {
 namespace {

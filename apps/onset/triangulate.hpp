@@ -1,7 +1,7 @@
 // Polygons as triangles.
 #pragma once
 
-#include "mesh_file.hpp"
+#include "onset/mesh_file.hpp"
 
 namespace app {
 

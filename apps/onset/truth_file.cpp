@@ -1,4 +1,4 @@
-#include "truth_file.hpp"
+#include "onset/truth_file.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "error.hpp"
-#include "input_file.hpp"
+#include "onset/error.hpp"
+#include "onset/input_file.hpp"
 
 namespace app {
 namespace {

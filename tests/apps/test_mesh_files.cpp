@@ -8,10 +8,10 @@
 #include <optional>
 #include <random>
 
-#include "apps/onset/error.hpp"
-#include "apps/onset/mesh_readers.hpp"
-#include "apps/onset/scene.hpp"
-#include "apps/onset/text_lines.hpp"
+#include "onset/error.hpp"
+#include "onset/mesh_readers.hpp"
+#include "onset/scene.hpp"
+#include "onset/text_lines.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
 

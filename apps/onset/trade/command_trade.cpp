@@ -2,13 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "arguments.hpp"
-#include "commands.hpp"
-#include "error.hpp"
-#include "progress.hpp"
-#include "scene_command.hpp"
-#include "sweep.hpp"
-#include "trade_report.hpp"
+#include "onset/arguments.hpp"
+#include "onset/commands.hpp"
+#include "onset/error.hpp"
+#include "onset/progress.hpp"
+#include "onset/scene_command.hpp"
+#include "onset/trade/sweep.hpp"
+#include "onset/trade/trade_report.hpp"
 
 namespace app {
 namespace {

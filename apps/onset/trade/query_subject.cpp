@@ -2,11 +2,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "memory.hpp"
-#include "output.hpp"
-#include "query_file.hpp"
-#include "subject.hpp"
-#include "truth_file.hpp"
+#include "bench/memory.hpp"
+#include "onset/output.hpp"
+#include "onset/query_file.hpp"
+#include "onset/trade/subject.hpp"
+#include "onset/truth_file.hpp"
 
 namespace app {
 namespace {

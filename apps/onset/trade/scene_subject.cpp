@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <thread>
 
-#include "memory.hpp"
-#include "output.hpp"
-#include "scene_command.hpp"
-#include "subject.hpp"
-#include "truth_file.hpp"
+#include "bench/memory.hpp"
+#include "onset/output.hpp"
+#include "onset/scene_command.hpp"
+#include "onset/trade/subject.hpp"
+#include "onset/truth_file.hpp"
 
 namespace app {
 namespace {

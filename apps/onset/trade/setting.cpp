@@ -1,8 +1,8 @@
-#include "setting.hpp"
+#include "onset/trade/setting.hpp"
 
 #include <algorithm>
 
-#include "output.hpp"
+#include "onset/output.hpp"
 
 namespace app {
 namespace {

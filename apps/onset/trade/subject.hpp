@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "scene.hpp"
-#include "setting.hpp"
-#include "timing.hpp"
+#include "bench/timing.hpp"
+#include "onset/scene.hpp"
+#include "onset/trade/setting.hpp"
 
 namespace app {
 

@@ -1,4 +1,4 @@
-#include "sweep.hpp"
+#include "onset/trade/sweep.hpp"
 
 namespace app {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "subject.hpp"
+#include "onset/trade/subject.hpp"
 
 namespace app {
 

@@ -1,9 +1,9 @@
-#include "trade_report.hpp"
+#include "onset/trade/trade_report.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "machine.hpp"
+#include "bench/machine.hpp"
 
 namespace app {
 namespace {
