@@ -19,8 +19,8 @@
 #include "bench/finder.hpp"
 #include "bench/machine.hpp"
 #include "bench/timing.hpp"
-#include "onset/error.hpp"
-#include "onset/truth_file.hpp"
+#include "files/error.hpp"
+#include "files/queries/truth_file.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <onset/mesh.hpp>
 #include <vector>
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 

@@ -13,8 +13,8 @@
 #include "bench/peer.hpp"
 #include "bench/stored_pairs.hpp"
 #include "bench/timing.hpp"
-#include "onset/error.hpp"
-#include "onset/scene.hpp"
+#include "files/error.hpp"
+#include "files/scene/scene.hpp"
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/timing.hpp"
-#include "onset/error.hpp"
-#include "onset/scene.hpp"
+#include "files/error.hpp"
+#include "files/scene/scene.hpp"
 
 namespace {
 

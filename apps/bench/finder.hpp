@@ -4,7 +4,7 @@
 #include <onset/query.hpp>
 #include <onset/result.hpp>
 
-#include "onset/query_file.hpp"
+#include "files/queries/query_file.hpp"
 
 namespace app {
 

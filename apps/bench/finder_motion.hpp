@@ -5,7 +5,7 @@
 #include <array>
 #include <onset/result.hpp>
 
-#include "onset/query_file.hpp"
+#include "files/queries/query_file.hpp"
 
 namespace app {
 

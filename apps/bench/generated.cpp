@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 

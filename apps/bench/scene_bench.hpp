@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/timing.hpp"
-#include "onset/scene.hpp"
+#include "files/scene/scene.hpp"
 
 namespace app {
 

@@ -19,8 +19,8 @@
 
 #include "bench/stored_pairs.hpp"
 #include "bench/timing.hpp"
-#include "onset/error.hpp"
-#include "onset/scene.hpp"
+#include "files/error.hpp"
+#include "files/scene/scene.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <map>
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 namespace {

@@ -1,6 +1,6 @@
 #include "onset/bodies.hpp"
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "onset/scene.hpp"
+#include "files/scene/scene.hpp"
 
 namespace app {
 

@@ -5,10 +5,10 @@
 
 #include "bench/generated.hpp"
 #include "bench/scene_bench.hpp"
+#include "files/error.hpp"
 #include "onset/arguments.hpp"
 #include "onset/bodies.hpp"
 #include "onset/commands.hpp"
-#include "onset/error.hpp"
 #include "onset/progress.hpp"
 #include "onset/report.hpp"
 #include "onset/scene_command.hpp"

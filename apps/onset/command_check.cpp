@@ -1,10 +1,10 @@
 // onset check: whether a step can start here, and what is in the way.
 #include <memory>
 
+#include "files/error.hpp"
+#include "files/scene/places.hpp"
 #include "onset/bodies.hpp"
 #include "onset/commands.hpp"
-#include "onset/error.hpp"
-#include "onset/places.hpp"
 #include "onset/progress.hpp"
 #include "onset/report.hpp"
 #include "onset/scene_command.hpp"

@@ -3,10 +3,10 @@
 #include <set>
 #include <utility>
 
+#include "files/scene/scene.hpp"
 #include "onset/bodies.hpp"
 #include "onset/commands.hpp"
 #include "onset/report.hpp"
-#include "onset/scene.hpp"
 #include "onset/scene_command.hpp"
 
 namespace app {

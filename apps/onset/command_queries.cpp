@@ -4,10 +4,10 @@
 #include <chrono>
 #include <memory>
 
+#include "files/error.hpp"
+#include "files/input_file.hpp"
 #include "onset/arguments.hpp"
 #include "onset/commands.hpp"
-#include "onset/error.hpp"
-#include "onset/input_file.hpp"
 #include "onset/progress.hpp"
 #include "onset/query_dump.hpp"
 #include "onset/report.hpp"

@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "files/error.hpp"
 #include "onset/arguments.hpp"
 #include "onset/commands.hpp"
-#include "onset/error.hpp"
 #include "onset/progress.hpp"
 #include "onset/query_dump.hpp"
 #include "onset/report.hpp"

@@ -5,7 +5,7 @@
 #include <onset/onset.hpp>
 #include <string>
 
-#include "onset/scene.hpp"
+#include "files/scene/scene.hpp"
 
 namespace app {
 

@@ -4,8 +4,8 @@
 #include <exception>
 #include <string>
 
+#include "files/error.hpp"
 #include "onset/commands.hpp"
-#include "onset/error.hpp"
 
 namespace {
 

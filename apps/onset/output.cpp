@@ -4,7 +4,7 @@
 #include <cstdarg>
 #include <cstring>
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 

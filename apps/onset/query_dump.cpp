@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "onset/error.hpp"
-#include "onset/rational.hpp"
+#include "files/error.hpp"
+#include "files/queries/rational.hpp"
 #include "onset/report.hpp"
 
 namespace app {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
+#include "files/queries/query_file.hpp"
 #include "onset/output.hpp"
-#include "onset/query_file.hpp"
 
 namespace app {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "files/scene/places.hpp"
 #include "onset/arguments.hpp"
 #include "onset/bodies.hpp"
-#include "onset/places.hpp"
 #include "onset/report.hpp"
 
 namespace app {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "files/scene/scene.hpp"
 #include "onset/commands.hpp"
 #include "onset/output.hpp"
-#include "onset/scene.hpp"
 
 namespace app {
 

@@ -4,8 +4,8 @@
 #include <onset/onset.hpp>
 #include <string>
 
+#include "files/scene/scene.hpp"
 #include "onset/arguments.hpp"
-#include "onset/scene.hpp"
 
 namespace app {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "files/scene/scene.hpp"
 #include "onset/output.hpp"
-#include "onset/scene.hpp"
 
 namespace app {
 

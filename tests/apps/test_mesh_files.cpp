@@ -8,10 +8,10 @@
 #include <optional>
 #include <random>
 
-#include "onset/error.hpp"
-#include "onset/mesh_readers.hpp"
-#include "onset/scene.hpp"
-#include "onset/text_lines.hpp"
+#include "files/error.hpp"
+#include "files/mesh/mesh_readers.hpp"
+#include "files/scene/scene.hpp"
+#include "files/text_lines.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
 

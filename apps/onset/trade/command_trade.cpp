@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "files/error.hpp"
 #include "onset/arguments.hpp"
 #include "onset/commands.hpp"
-#include "onset/error.hpp"
 #include "onset/progress.hpp"
 #include "onset/scene_command.hpp"
 #include "onset/trade/sweep.hpp"

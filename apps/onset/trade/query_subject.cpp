@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "bench/memory.hpp"
+#include "files/queries/query_file.hpp"
+#include "files/queries/truth_file.hpp"
 #include "onset/output.hpp"
-#include "onset/query_file.hpp"
 #include "onset/trade/subject.hpp"
-#include "onset/truth_file.hpp"
 
 namespace app {
 namespace {

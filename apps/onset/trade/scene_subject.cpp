@@ -2,10 +2,10 @@
 #include <thread>
 
 #include "bench/memory.hpp"
+#include "files/queries/truth_file.hpp"
 #include "onset/output.hpp"
 #include "onset/scene_command.hpp"
 #include "onset/trade/subject.hpp"
-#include "onset/truth_file.hpp"
 
 namespace app {
 namespace {

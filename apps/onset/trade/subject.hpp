@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/timing.hpp"
-#include "onset/scene.hpp"
+#include "files/scene/scene.hpp"
 #include "onset/trade/setting.hpp"
 
 namespace app {

@@ -1,4 +1,4 @@
-#include "onset/truth_file.hpp"
+#include "files/queries/truth_file.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "onset/error.hpp"
-#include "onset/input_file.hpp"
+#include "files/error.hpp"
+#include "files/input_file.hpp"
 
 namespace app {
 namespace {

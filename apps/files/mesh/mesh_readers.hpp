@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 

@@ -1,10 +1,10 @@
-#include "onset/ply_header.hpp"
+#include "files/mesh/ply_header.hpp"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
-#include "onset/text_lines.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-#include "onset/text_lines.hpp"
+#include "files/text_lines.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,8 +1,8 @@
 #include <cstring>
 
-#include "onset/mesh_builder.hpp"
-#include "onset/mesh_readers.hpp"
-#include "onset/text_lines.hpp"
+#include "files/mesh/mesh_builder.hpp"
+#include "files/mesh/mesh_readers.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {

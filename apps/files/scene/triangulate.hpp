@@ -1,7 +1,7 @@
 // Polygons as triangles.
 #pragma once
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 

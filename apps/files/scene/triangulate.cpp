@@ -1,9 +1,9 @@
-#include "onset/triangulate.hpp"
+#include "files/scene/triangulate.hpp"
 
 #include <cmath>
 #include <cstddef>
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 namespace {

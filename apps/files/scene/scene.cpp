@@ -1,13 +1,13 @@
-#include "onset/scene.hpp"
+#include "files/scene/scene.hpp"
 
 #include <algorithm>
 #include <set>
 #include <stdexcept>
 
-#include "onset/error.hpp"
-#include "onset/merged_corners.hpp"
-#include "onset/text_lines.hpp"
-#include "onset/triangulate.hpp"
+#include "files/error.hpp"
+#include "files/scene/merged_corners.hpp"
+#include "files/scene/triangulate.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {

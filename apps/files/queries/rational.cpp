@@ -1,4 +1,4 @@
-#include "onset/rational.hpp"
+#include "files/queries/rational.hpp"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 namespace {

@@ -1,8 +1,8 @@
 #include <cctype>
 #include <filesystem>
 
-#include "onset/error.hpp"
-#include "onset/query_file.hpp"
+#include "files/error.hpp"
+#include "files/queries/query_file.hpp"
 
 namespace app {
 namespace {

@@ -1,10 +1,10 @@
-#include "onset/input_file.hpp"
+#include "files/input_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 

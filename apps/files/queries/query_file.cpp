@@ -1,11 +1,11 @@
-#include "onset/query_file.hpp"
+#include "files/queries/query_file.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-#include "onset/error.hpp"
-#include "onset/input_file.hpp"
-#include "onset/rational.hpp"
+#include "files/error.hpp"
+#include "files/input_file.hpp"
+#include "files/queries/rational.hpp"
 
 namespace app {
 namespace {

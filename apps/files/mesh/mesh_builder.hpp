@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 

@@ -1,4 +1,4 @@
-#include "onset/places.hpp"
+#include "files/scene/places.hpp"
 
 #include <algorithm>
 #include <numeric>

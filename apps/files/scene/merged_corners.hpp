@@ -1,7 +1,7 @@
 // STL files name no vertices: which of their corners are one.
 #pragma once
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 

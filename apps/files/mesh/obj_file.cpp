@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "onset/mesh_builder.hpp"
-#include "onset/mesh_readers.hpp"
-#include "onset/text_lines.hpp"
+#include "files/mesh/mesh_builder.hpp"
+#include "files/mesh/mesh_readers.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "onset/mesh_builder.hpp"
+#include "files/mesh/mesh_builder.hpp"
 
 namespace app {
 

@@ -1,9 +1,9 @@
-#include "onset/ply_body.hpp"
+#include "files/mesh/ply_body.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "onset/text_lines.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "onset/ply_header.hpp"
+#include "files/mesh/ply_header.hpp"
 
 namespace app {
 

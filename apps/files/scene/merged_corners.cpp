@@ -1,10 +1,10 @@
-#include "onset/merged_corners.hpp"
+#include "files/scene/merged_corners.hpp"
 
 #include <algorithm>
 
-#include "onset/error.hpp"
-#include "onset/places.hpp"
-#include "onset/text_lines.hpp"
+#include "files/error.hpp"
+#include "files/scene/places.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {

@@ -2,9 +2,9 @@
 // counts that no file of that length can hold, and cannot tell the line of a fault.
 #include <algorithm>
 
-#include "onset/mesh_readers.hpp"
-#include "onset/ply_body.hpp"
-#include "onset/text_lines.hpp"
+#include "files/mesh/mesh_readers.hpp"
+#include "files/mesh/ply_body.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {

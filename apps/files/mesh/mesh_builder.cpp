@@ -1,10 +1,10 @@
-#include "onset/mesh_builder.hpp"
+#include "files/mesh/mesh_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "onset/error.hpp"
+#include "files/error.hpp"
 
 namespace app {
 

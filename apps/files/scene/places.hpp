@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 

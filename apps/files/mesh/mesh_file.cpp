@@ -1,4 +1,4 @@
-#include "onset/mesh_file.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <map>
 
-#include "onset/error.hpp"
-#include "onset/input_file.hpp"
-#include "onset/mesh_readers.hpp"
+#include "files/error.hpp"
+#include "files/input_file.hpp"
+#include "files/mesh/mesh_readers.hpp"
 
 namespace app {
 namespace {
