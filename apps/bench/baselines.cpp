@@ -17,10 +17,10 @@
 #include <optional>
 
 #include "bench/finder.hpp"
-#include "bench/machine.hpp"
-#include "bench/timing.hpp"
 #include "files/error.hpp"
 #include "files/queries/truth_file.hpp"
+#include "measure/machine.hpp"
+#include "measure/timing.hpp"
 
 namespace {
 

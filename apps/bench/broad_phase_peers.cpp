@@ -12,9 +12,9 @@
 
 #include "bench/peer.hpp"
 #include "bench/stored_pairs.hpp"
-#include "bench/timing.hpp"
 #include "files/error.hpp"
 #include "files/scene/scene.hpp"
+#include "measure/timing.hpp"
 
 namespace {
 

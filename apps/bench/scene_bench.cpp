@@ -5,7 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "bench/memory.hpp"
+#include "measure/memory.hpp"
 
 namespace app {
 namespace {

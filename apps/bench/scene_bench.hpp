@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/timing.hpp"
 #include "files/scene/scene.hpp"
+#include "measure/timing.hpp"
 
 namespace app {
 

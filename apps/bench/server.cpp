@@ -18,9 +18,9 @@
 #include <sstream>
 
 #include "bench/stored_pairs.hpp"
-#include "bench/timing.hpp"
 #include "files/error.hpp"
 #include "files/scene/scene.hpp"
+#include "measure/timing.hpp"
 
 namespace {
 

@@ -2,9 +2,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "bench/memory.hpp"
 #include "files/queries/query_file.hpp"
 #include "files/queries/truth_file.hpp"
+#include "measure/memory.hpp"
 #include "onset/output.hpp"
 #include "onset/trade/subject.hpp"
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "bench/memory.hpp"
 #include "files/queries/truth_file.hpp"
+#include "measure/memory.hpp"
 #include "onset/output.hpp"
 #include "onset/scene_command.hpp"
 #include "onset/trade/subject.hpp"

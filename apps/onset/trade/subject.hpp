@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/timing.hpp"
 #include "files/scene/scene.hpp"
+#include "measure/timing.hpp"
 #include "onset/trade/setting.hpp"
 
 namespace app {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/machine.hpp"
+#include "measure/machine.hpp"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/machine.hpp"
+#include "measure/machine.hpp"
 
 #include <fstream>
 #include <onset/onset.hpp>

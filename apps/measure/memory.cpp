@@ -1,4 +1,4 @@
-#include "bench/memory.hpp"
+#include "measure/memory.hpp"
 
 #include <fstream>
 #include <string>
