@@ -5,7 +5,7 @@
 #include <string>
 
 #include "files/error.hpp"
-#include "onset/commands.hpp"
+#include "onset/command_line/commands.hpp"
 
 namespace {
 

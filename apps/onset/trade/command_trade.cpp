@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "files/error.hpp"
-#include "onset/arguments.hpp"
-#include "onset/commands.hpp"
-#include "onset/progress.hpp"
-#include "onset/scene_command.hpp"
+#include "onset/command_line/arguments.hpp"
+#include "onset/command_line/commands.hpp"
+#include "onset/commands/scene_command.hpp"
+#include "onset/results/progress.hpp"
 #include "onset/trade/sweep.hpp"
 #include "onset/trade/trade_report.hpp"
 

@@ -5,7 +5,7 @@
 #include "files/queries/query_file.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/memory.hpp"
-#include "onset/output.hpp"
+#include "onset/results/output.hpp"
 #include "onset/trade/subject.hpp"
 
 namespace app {

@@ -3,8 +3,8 @@
 
 #include "files/queries/truth_file.hpp"
 #include "measure/memory.hpp"
-#include "onset/output.hpp"
-#include "onset/scene_command.hpp"
+#include "onset/commands/scene_command.hpp"
+#include "onset/results/output.hpp"
 #include "onset/trade/subject.hpp"
 
 namespace app {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "onset/output.hpp"
+#include "onset/results/output.hpp"
 
 namespace app {
 namespace {
