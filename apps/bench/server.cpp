@@ -17,7 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bench/stored_pairs.hpp"
+#include "bench/peers/stored_pairs.hpp"
 #include "files/error.hpp"
 #include "files/scene/scene.hpp"
 #include "measure/timing.hpp"

@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/finder.hpp"
+#include "bench/root_finders/finder.hpp"
 #include "files/error.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/machine.hpp"

@@ -5,7 +5,7 @@
 #include <onset/onset.hpp>
 #include <string>
 
-#include "bench/boxes.hpp"
+#include "bench/peers/boxes.hpp"
 
 namespace app {
 

@@ -3,8 +3,8 @@
 #include <queue>
 #include <vector>
 
-#include "bench/finder.hpp"
-#include "bench/finder_motion.hpp"
+#include "bench/root_finders/finder.hpp"
+#include "bench/root_finders/finder_motion.hpp"
 
 namespace app {
 namespace {

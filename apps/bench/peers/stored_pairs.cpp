@@ -1,4 +1,4 @@
-#include "bench/stored_pairs.hpp"
+#include "bench/peers/stored_pairs.hpp"
 
 #include <tbb/task_arena.h>
 

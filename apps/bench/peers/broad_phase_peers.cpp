@@ -10,8 +10,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bench/peer.hpp"
-#include "bench/stored_pairs.hpp"
+#include "bench/peers/peer.hpp"
+#include "bench/peers/stored_pairs.hpp"
 #include "files/error.hpp"
 #include "files/scene/scene.hpp"
 #include "measure/timing.hpp"

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "bench/peer.hpp"
+#include "bench/peers/peer.hpp"
 
 namespace app {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-#include "bench/peer.hpp"
+#include "bench/peers/peer.hpp"
 
 namespace app {
 namespace {
