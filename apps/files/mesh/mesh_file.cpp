@@ -8,7 +8,7 @@
 #include <map>
 
 #include "files/error.hpp"
-#include "files/input_file.hpp"
+#include "files/input_output.hpp"
 #include "files/mesh/mesh_readers.hpp"
 
 namespace app {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "files/error.hpp"
-#include "files/input_file.hpp"
+#include "files/input_output.hpp"
 #include "files/queries/rational.hpp"
 
 namespace app {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "files/error.hpp"
-#include "files/input_file.hpp"
+#include "files/input_output.hpp"
 
 namespace app {
 namespace {

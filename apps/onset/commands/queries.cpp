@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "files/error.hpp"
-#include "files/input_file.hpp"
+#include "files/input_output.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
 #include "onset/exports/query_dump.hpp"

@@ -7,7 +7,7 @@
 
 #include "files/scene/scene.hpp"
 #include "onset/command_line/commands.hpp"
-#include "onset/results/output.hpp"
+#include "onset/results/outputs.hpp"
 
 namespace app {
 

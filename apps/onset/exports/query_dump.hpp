@@ -8,7 +8,7 @@
 
 #include "files/mesh/mesh_file.hpp"
 #include "files/queries/query_file.hpp"
-#include "onset/results/output.hpp"
+#include "onset/results/outputs.hpp"
 
 namespace app {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "onset/results/output.hpp"
+#include "files/input_output.hpp"
 
 namespace app {
 

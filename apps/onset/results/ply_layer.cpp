@@ -1,7 +1,7 @@
 #include "onset/results/ply_layer.hpp"
 
+#include "files/input_output.hpp"
 #include "onset/results/coloured_ply.hpp"
-#include "onset/results/output.hpp"
 
 namespace app {
 

@@ -4,7 +4,7 @@
 #include <onset/result.hpp>
 #include <string>
 
-#include "onset/results/output.hpp"
+#include "onset/results/outputs.hpp"
 
 namespace app {
 

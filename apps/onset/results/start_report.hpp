@@ -6,7 +6,7 @@
 #include <string>
 
 #include "files/scene/scene.hpp"
-#include "onset/results/output.hpp"
+#include "onset/results/outputs.hpp"
 
 namespace app {
 

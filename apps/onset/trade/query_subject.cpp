@@ -2,10 +2,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "files/input_output.hpp"
 #include "files/queries/query_file.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/memory.hpp"
-#include "onset/results/output.hpp"
 #include "onset/trade/subject.hpp"
 
 namespace app {

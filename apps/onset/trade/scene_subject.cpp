@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <thread>
 
+#include "files/input_output.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/memory.hpp"
 #include "onset/commands/scene_command.hpp"
-#include "onset/results/output.hpp"
 #include "onset/trade/subject.hpp"
 
 namespace app {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "onset/results/output.hpp"
+#include "onset/results/outputs.hpp"
 #include "onset/trade/front.hpp"
 #include "onset/trade/subject.hpp"
 

@@ -1,38 +1,17 @@
 // Where results go: JSON, CSV and the summary for people.
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "files/input_output.hpp"
 #include "onset/command_line/arguments.hpp"
 
 namespace app {
 
 using Json = nlohmann::ordered_json;
-
-// A file, or stdout for "-". Every failure to open or write throws InputError naming the path and the reason;
-// call close() when all is written, for a full disk may show only then.
-class Output {
- public:
-  explicit Output(const std::string& path);
-  void write(std::string_view text);
-  void close();
-
- private:
-  [[noreturn]] void fail();
-  struct Close {
-    void operator()(std::FILE* file) const {
-      if (file != stdout) std::fclose(file);
-    }
-  };
-  std::string path_;
-  std::unique_ptr<std::FILE, Close> file_;
-};
 
 // Opened before the work starts, so that a path that cannot be written is known at once. The summary goes to
 // stdout unless JSON or CSV does.
@@ -48,8 +27,5 @@ class Outputs {
   std::vector<std::string> notes_;
   std::optional<Output> json_, csv_, summary_;
 };
-
-// printf into a string.
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
 
 }  // namespace app

@@ -1,12 +1,22 @@
-#include "onset/results/output.hpp"
+#include "files/input_output.hpp"
 
 #include <cerrno>
 #include <cstdarg>
 #include <cstring>
+#include <filesystem>
 
 #include "files/error.hpp"
 
 namespace app {
+
+std::ifstream open_input(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw InputError(path + ": is a directory");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": " + std::strerror(errno));
+  return in;
+}
 
 Output::Output(const std::string& path) : path_(path == "-" ? "stdout" : path) {
   errno = 0;
@@ -28,28 +38,6 @@ void Output::close() {
 
 void Output::fail() {
   throw InputError(path_ + ": cannot be written: " + (errno ? std::strerror(errno) : "unknown reason"));
-}
-
-Outputs::Outputs(const Arguments& arguments) {
-  if (!arguments.json.empty()) json_.emplace(arguments.json);
-  if (!arguments.csv.empty()) csv_.emplace(arguments.csv);
-  if (arguments.json != "-" && arguments.csv != "-") summary_.emplace("-");
-}
-
-void Outputs::finish(Json json, const std::string& summary) {
-  std::string said;
-  for (const std::string& note : notes_) said += "note        " + note + "\n";
-  if (csv_) csv_->close();
-  if (json_) {
-    if (!notes_.empty()) json["notes"] = notes_;
-    json_->write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-    json_->close();
-  }
-  if (!json_ && !summary_) std::fputs(said.c_str(), stderr);
-  if (summary_) {
-    summary_->write(said + summary);
-    summary_->close();
-  }
 }
 
 std::string format(const char* pattern, ...) {
