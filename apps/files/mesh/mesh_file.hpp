@@ -12,6 +12,8 @@ namespace app {
 using Faces = Eigen::Matrix<long long, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
+inline std::array<double, 3> point(const Points& x, int vertex) { return {x(vertex, 0), x(vertex, 1), x(vertex, 2)}; }
+
 // Each of three corners or more, one after another.
 struct Polygons {
   std::vector<std::int64_t> corners;

@@ -4,10 +4,10 @@
 #include <memory>
 #include <onset/onset.hpp>
 
+#include "files/ply_output.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
 #include "onset/commands/demo_scene.hpp"
-#include "onset/results/coloured_ply.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/results/report.hpp"
 
@@ -36,17 +36,10 @@ DemoResult compute(const DemoScene& scene, const onset::Mesh& mesh, const onset:
 }
 
 std::vector<Colour> colours(const DemoResult& r) {
-  std::vector<double> toi(std::size_t(r.x.rows()), -1);
   double earliest = 1;
-  for (std::size_t i = 0; i < r.whole.size(); ++i) {
-    earliest = std::min(earliest, r.whole.toi[i]);
-    for (const int v : r.whole.vertices[i]) {
-      double& own = toi[std::size_t(v)];
-      own = own < 0 ? r.whole.toi[i] : std::min(own, r.whole.toi[i]);
-    }
-  }
+  for (const double toi : r.whole.toi) earliest = std::min(earliest, toi);
   std::vector<Colour> result;
-  for (const double t : toi) result.push_back(colour_of(t, earliest));
+  for (const double toi : toi_of_vertices(r.whole, std::size_t(r.x.rows()))) result.push_back(colour_of(toi, earliest));
   return result;
 }
 

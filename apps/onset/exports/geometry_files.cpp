@@ -1,14 +1,12 @@
 #include "onset/exports/geometry_files.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <map>
 
-#include "onset/results/ply_layer.hpp"
+#include "files/ply_output.hpp"
 
 namespace app {
 namespace {
-
-onset::Point point(const Points& x, int v) { return {x(v, 0), x(v, 1), x(v, 2)}; }
 
 onset::Point mix(const onset::Point& a, const onset::Point& b, double t) {
   onset::Point r;
@@ -59,13 +57,8 @@ struct Exporter {
 
   PlyLayer swept() const {
     PlyLayer layer;
-    std::vector<double> vertex_toi(std::size_t(scene.x_t0.rows()), -1);
-    for (std::size_t i = 0; i < set.size(); ++i)
-      for (const int v : set.vertices[i]) {
-        double& own = vertex_toi[std::size_t(v)];
-        own = own < 0 ? set.toi[i] : std::min(own, set.toi[i]);
-      }
-    for (int v = 0; v < scene.x_t0.rows(); ++v) layer.add(point(scene.x_t0, v), vertex_toi[std::size_t(v)]);
+    const std::vector<double> toi = toi_of_vertices(set, std::size_t(scene.x_t0.rows()));
+    for (int v = 0; v < scene.x_t0.rows(); ++v) layer.add(point(scene.x_t0, v), toi[std::size_t(v)]);
     for (std::ptrdiff_t f = 0; f < scene.mesh.num_faces(); ++f) {
       const auto ids = scene.mesh.face(f);
       layer.faces.push_back({ids[0], ids[1], ids[2]});

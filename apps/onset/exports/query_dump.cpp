@@ -17,8 +17,6 @@ std::string without_ending(const std::string& path, const std::string& ending) {
   return path.substr(size) == ending ? path.substr(0, size) : path;
 }
 
-onset::Point point(const Points& x, int vertex) { return {x(vertex, 0), x(vertex, 1), x(vertex, 2)}; }
-
 Json to_json(const onset::Options& o) {
   return {{"tolerance", *o.tolerance},
           {"min_separation", o.min_separation},

@@ -1,6 +1,6 @@
 #include <set>
 
-#include "onset/results/coloured_ply.hpp"
+#include "files/ply_output.hpp"
 #include "onset/results/start_report.hpp"
 
 namespace app {
@@ -56,11 +56,11 @@ StartLayer make_layer(const onset::Mesh& mesh, const onset::StartReport& report)
 void write_start_ply(const std::string& path, const Scene& scene, const onset::StartReport& report) {
   const StartLayer layer = make_layer(scene.mesh, report);
   Output file(path);
-  file.write(format("ply\nformat ascii 1.0\nelement vertex %zu\n", layer.corners.size()));
-  for (const char* name : {"double x", "double y", "double z", "uchar red", "uchar green", "uchar blue", "int id"})
-    file.write(format("property %s\n", name));
-  file.write(format("element face %zu\nproperty list uchar int vertex_indices\n", layer.faces.size()));
-  file.write(format("element edge %zu\nproperty int vertex1\nproperty int vertex2\nend_header\n", layer.edges.size()));
+  write_ply_header(file, {{"vertex",
+                           layer.corners.size(),
+                           {"double x", "double y", "double z", "uchar red", "uchar green", "uchar blue", "int id"}},
+                          ply_faces(layer.faces.size()),
+                          ply_edges(layer.edges.size())});
   for (const StartLayer::Corner& c : layer.corners) {
     const auto x = scene.x_t0.row(c.vertex);
     const auto [red, green, blue] = c.colour;
