@@ -18,6 +18,7 @@
 
 #include "bench/root_finders/finder.hpp"
 #include "files/error.hpp"
+#include "files/queries/query_kind.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/machine.hpp"
 #include "measure/timing.hpp"
@@ -139,7 +140,7 @@ Json measure_file(const std::string& path, const Settings& settings) {
   std::vector<bool> collides;
   for (const app::TruthQuery& q : queries) collides.push_back(q.collides);
   const std::vector<app::ExactToi> times = app::read_query_toi(path, collides);
-  Json row = {{"file", path}, {"kind", kind == onset::PairKind::vertex_face ? "vf" : "ee"}};
+  Json row = {{"file", path}, {"kind", app::kind_name(kind)}};
   for (const NamedFinder& finder : finders(settings))
     row["finders"].push_back(measure(finder, kind, queries, times, settings.every));
   return row;

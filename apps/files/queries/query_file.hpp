@@ -17,8 +17,4 @@ onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onse
 // Eight rows a query, each xn,xd,yn,yd,zn,zd,truth. Throws InputError naming file and line.
 std::vector<TruthQuery> read_queries(const std::string& path);
 
-// The kind that a path tells by "vertex-face" or "vf", "edge-edge" or "ee" as whole words of letters
-// ("326vf.csv"), the file's name before its folders. Throws InputError where it tells none, or both at once.
-onset::PairKind kind_from_path(const std::string& path);
-
 }  // namespace app

@@ -1,8 +1,10 @@
+#include "files/queries/query_kind.hpp"
+
 #include <cctype>
 #include <filesystem>
+#include <initializer_list>
 
 #include "files/error.hpp"
-#include "files/queries/query_file.hpp"
 
 namespace app {
 namespace {
@@ -27,6 +29,8 @@ bool says(const std::string& words, std::initializer_list<const char*> names) {
 
 }  // namespace
 
+const char* kind_name(onset::PairKind kind) { return kind == onset::PairKind::vertex_face ? "vf" : "ee"; }
+
 onset::PairKind kind_from_path(const std::string& path) {
   for (std::filesystem::path p = path; p.has_filename(); p = p.parent_path()) {
     const std::string name = words(p.filename().string());
@@ -36,6 +40,11 @@ onset::PairKind kind_from_path(const std::string& path) {
     if (ee) return onset::PairKind::edge_edge;
   }
   throw InputError(path + ": the path does not tell vertex-face (vf) from edge-edge (ee): give --kind");
+}
+
+onset::PairKind kind_of_file(const std::string& path, const std::string& name) {
+  if (name.empty()) return kind_from_path(path);
+  return name == kind_name(onset::PairKind::vertex_face) ? onset::PairKind::vertex_face : onset::PairKind::edge_edge;
 }
 
 }  // namespace app

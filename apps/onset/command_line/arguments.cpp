@@ -86,6 +86,12 @@ void add_window(CLI::App& command, Arguments& a) {
       [&a](const std::string& s) { a.options.window = parse_real("--window", s, Zero::allowed); });
 }
 
+void add_kind(CLI::App& command, std::string& kind, const std::string& how) {
+  command.add_option("--kind", kind, "Kind of all queries; otherwise each path tells" + how)
+      ->check(CLI::IsMember({"vf", "ee"}))
+      ->type_name("NAME");
+}
+
 void add_common_options(CLI::App& command, Arguments& a, const std::string& csv_columns) {
   add_accuracy(command, a.options);
   add_budgets(command, a.options);

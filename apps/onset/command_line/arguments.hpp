@@ -19,6 +19,9 @@ void add_common_options(CLI::App& command, Arguments& arguments, const std::stri
 // --window, of active sets.
 void add_window(CLI::App& command, Arguments& arguments);
 
+// --kind, of queries: "vf", "ee" or what each path tells. `how`: goes on with the help.
+void add_kind(CLI::App& command, std::string& kind, const std::string& how = "");
+
 // What the library takes. Throws UsageError where two outputs share one destination.
 onset::Options to_options(const Arguments& arguments);
 

@@ -6,6 +6,7 @@
 
 #include "files/error.hpp"
 #include "files/input_output.hpp"
+#include "files/queries/query_kind.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
 #include "onset/exports/query_dump.hpp"
@@ -84,8 +85,7 @@ std::vector<FileTally> plan(const std::vector<std::string>& files, const std::st
   std::vector<FileTally> tallies;
   for (const std::string& file : files) {
     open_input(file);
-    const onset::PairKind given = kind == "vf" ? onset::PairKind::vertex_face : onset::PairKind::edge_edge;
-    tallies.push_back({file, kind.empty() ? kind_from_path(file) : given, {}});
+    tallies.push_back({file, kind_of_file(file, kind), {}});
   }
   return tallies;
 }
@@ -153,11 +153,7 @@ void add_queries(CLI::App& app, Run& run) {
   CLI::App* command =
       app.add_subcommand("queries", "Answer queries with known truth, and count and time the answers");
   command->add_option("FILE", inputs->files, "CSV, eight rows a query: xn,xd,yn,yd,zn,zd,truth")->required();
-  command
-      ->add_option("--kind", inputs->kind,
-                   "Kind of all queries; otherwise each path tells: vertex-face, vf or edge-edge, ee")
-      ->check(CLI::IsMember({"vf", "ee"}))
-      ->type_name("NAME");
+  add_kind(*command, inputs->kind, ": vertex-face, vf or edge-edge, ee");
   add_common_options(*command, *inputs, "file,index,kind,outcome,toi");
   command->footer(
       "One query is asked after another, for the times are those of single queries: --threads and "

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "files/error.hpp"
+#include "files/queries/query_kind.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
 #include "onset/exports/query_dump.hpp"
@@ -34,8 +35,7 @@ void replay(const std::string& file, const std::string& kind_name, const onset::
   if (expected && expected->answers.size() != queries.size())
     throw InputError(file + ": " + std::to_string(queries.size()) + " queries, answers beside it to " +
                      std::to_string(expected->answers.size()));
-  const onset::PairKind named = kind_name == "vf" ? onset::PairKind::vertex_face : onset::PairKind::edge_edge;
-  const onset::PairKind kind = kind_name.empty() ? kind_from_path(file) : named;
+  const onset::PairKind kind = kind_of_file(file, kind_name);
   onset::Options options = expected ? expected->options : given;
   options.kernel = given.kernel;
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -100,9 +100,7 @@ void add_replay(CLI::App& app, Run& run) {
   command
       ->add_option("FILE", inputs->files, "NAME-vf.csv or NAME-ee.csv, from step or active-set --dump NAME")
       ->required();
-  command->add_option("--kind", inputs->kind, "Kind of all queries; otherwise each path tells: vf or ee")
-      ->check(CLI::IsMember({"vf", "ee"}))
-      ->type_name("NAME");
+  add_kind(*command, inputs->kind, ": vf or ee");
   add_common_options(*command, *inputs, "index,kind,outcome,toi,checks,verdict");
   command->footer(
       "Where NAME-vf.json lies beside its CSV, the queries are asked with the options in it (the kernel is "

@@ -1,4 +1,5 @@
 // onset step: how far the motion can go.
+#include "files/queries/query_kind.hpp"
 #include "onset/commands/scene_command.hpp"
 #include "onset/exports/scene_files.hpp"
 #include "onset/results/progress.hpp"

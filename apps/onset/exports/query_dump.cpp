@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "files/error.hpp"
+#include "files/queries/query_kind.hpp"
 #include "files/queries/rational.hpp"
 #include "onset/results/report.hpp"
 
@@ -20,7 +21,7 @@ std::string without_ending(const std::string& path, const std::string& ending) {
 Json to_json(const onset::Options& o) {
   return {{"tolerance", *o.tolerance},
           {"min_separation", o.min_separation},
-          {"norm", o.norm == onset::Norm::maximum ? "maximum" : "euclidean"},
+          {"norm", norm_name(o.norm)},
           {"max_checks", o.max_checks},
           {"touching_may_pass_through", o.touching_may_pass_through},
           {"narrow_phase", o.narrow_phase == onset::NarrowPhaseMethod::inclusion ? "inclusion" : "auto"}};

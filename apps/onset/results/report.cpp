@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "files/queries/query_kind.hpp"
+
 namespace app {
 
-const char* kind_name(onset::PairKind kind) { return kind == onset::PairKind::vertex_face ? "vf" : "ee"; }
+const char* norm_name(onset::Norm norm) { return norm == onset::Norm::maximum ? "maximum" : "euclidean"; }
 
 Json to_json(const onset::PairCounts& counts) {
   return {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};

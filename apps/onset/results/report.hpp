@@ -1,6 +1,7 @@
 // The pieces that the subcommands' results share, as JSON, CSV and words.
 #pragma once
 
+#include <onset/options.hpp>
 #include <onset/result.hpp>
 #include <string>
 
@@ -8,7 +9,7 @@
 
 namespace app {
 
-const char* kind_name(onset::PairKind kind);    // "vf" or "ee"
+const char* norm_name(onset::Norm norm);        // "euclidean" or "maximum"
 Json to_json(const onset::PairCounts& counts);  // {vf, ee}
 Json to_json(const onset::Pair& pair);          // {kind, a, b, vertices}, null for no pair
 Json to_json(const onset::PairPlan& plan);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "files/queries/query_kind.hpp"
 #include "onset/results/report.hpp"
 
 namespace app {

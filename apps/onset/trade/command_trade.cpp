@@ -58,9 +58,7 @@ void add_inputs(CLI::App& command, Inputs& inputs) {
           "Instead of A and B, queries with truth: CSV, eight rows a query; exact times from a toi.csv "
           "beside the file, if there is one: a row lo,hi a query")
       ->type_name("FILE ...");
-  command.add_option("--kind", inputs.kind, "Kind of all queries; otherwise each path tells")
-      ->check(CLI::IsMember({"vf", "ee"}))
-      ->type_name("NAME");
+  add_kind(command, inputs.kind);
   command
       .add_option("--truth", inputs.truth,
                   "Which pairs of A and B collide: PAIRS.json,COLLIDES.json, or a CSV with "

@@ -4,6 +4,7 @@
 
 #include "files/input_output.hpp"
 #include "files/queries/query_file.hpp"
+#include "files/queries/query_kind.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/memory.hpp"
 #include "onset/trade/subject.hpp"
@@ -90,8 +91,7 @@ class QuerySubject : public Subject {
 
  private:
   void read(const std::string& file, const std::string& kind) {
-    const onset::PairKind given = kind == "vf" ? onset::PairKind::vertex_face : onset::PairKind::edge_edge;
-    const onset::PairKind k = kind.empty() ? kind_from_path(file) : given;
+    const onset::PairKind k = kind_of_file(file, kind);
     std::vector<bool> collides;
     const std::vector<TruthQuery> queries = read_queries(file);
     for (const TruthQuery& query : queries) collides.push_back(query.collides);

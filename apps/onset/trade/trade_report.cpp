@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "measure/machine.hpp"
+#include "onset/results/report.hpp"
 
 namespace app {
 namespace {
@@ -60,7 +61,7 @@ Json options_json(const onset::Options& o) {
   return {{"tolerance", or_null(o.tolerance)},
           {"relative_tolerance", o.relative_tolerance},
           {"min_separation", o.min_separation},
-          {"norm", o.norm == onset::Norm::maximum ? "maximum" : "euclidean"},
+          {"norm", norm_name(o.norm)},
           {"max_checks", o.max_checks},
           {"certainty", word(o.certainty)},
           {"threads", o.threads}};
