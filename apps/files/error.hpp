@@ -6,12 +6,6 @@
 
 namespace app {
 
-// What the command line exits with.
-enum ExitCode { kExitOk = 0, kExitBadInput = 1, kExitUsage = 2, kExitNotClean = 3 };
-
-// Thrown when everything is written, and `check` has found something.
-struct NotClean {};
-
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

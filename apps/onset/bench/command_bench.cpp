@@ -9,7 +9,6 @@
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/bodies.hpp"
 #include "onset/command_line/commands.hpp"
-#include "onset/commands/scene_command.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/results/report.hpp"
 
@@ -56,8 +55,6 @@ Scene read_refined(const Inputs& inputs, int times) {
     for (int c = 0; c < 3; ++c) frames.faces(f, c) = scene.mesh.face(f)[std::size_t(c)];
   return to_scene(refined(std::move(frames), times));
 }
-
-Json spread_json(const Spread& s) { return {{"median", s.median}, {"min", s.least}, {"max", s.most}}; }
 
 Json call_json(const CallCost& c) {
   Json json = {{"wall", spread_json(c.wall)},

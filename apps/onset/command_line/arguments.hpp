@@ -22,6 +22,10 @@ void add_window(CLI::App& command, Arguments& arguments);
 // --kind, of queries: "vf", "ee" or what each path tells. `how`: goes on with the help.
 void add_kind(CLI::App& command, std::string& kind, const std::string& how = "");
 
+// Of two frames of a mesh.
+inline constexpr char kMeshHelp[] = "Mesh at the start of the step: .ply, .obj, .off or .stl";
+inline constexpr char kEndHelp[] = "The same mesh at its end: the same faces, wires and points in the same order";
+
 // What the library takes. Throws UsageError where two outputs share one destination.
 onset::Options to_options(const Arguments& arguments);
 

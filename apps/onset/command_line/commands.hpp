@@ -6,7 +6,13 @@
 
 namespace app {
 
-using Run = std::function<void()>;  // throws InputError, UsageError
+// What the command line exits with.
+enum ExitCode { kExitOk = 0, kExitBadInput = 1, kExitUsage = 2, kExitNotClean = 3 };
+
+// Thrown when everything is written, and `check` has found something.
+struct NotClean {};
+
+using Run = std::function<void()>;  // throws InputError, UsageError, NotClean
 
 void add_step(CLI::App& app, Run& run);
 void add_active_set(CLI::App& app, Run& run);

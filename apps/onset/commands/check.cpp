@@ -1,7 +1,6 @@
 // onset check: whether a step can start here, and what is in the way.
 #include <memory>
 
-#include "files/error.hpp"
 #include "files/scene/places.hpp"
 #include "onset/command_line/bodies.hpp"
 #include "onset/command_line/commands.hpp"

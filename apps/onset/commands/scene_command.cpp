@@ -62,11 +62,4 @@ void note_start(const Scene& scene, const onset::Options& options, bool in_conta
                seam_hint(scene));
 }
 
-std::string describe_sizes(const onset::Mesh& mesh) {
-  const std::ptrdiff_t points = mesh.num_points();
-  std::string text = describe_sizes(mesh.num_vertices(), mesh.num_edges() - points, mesh.num_faces());
-  if (points > 0) text.insert(text.size() - 1, format(", %td points (edges of length 0 behind all others)", points));
-  return text;
-}
-
 }  // namespace app

@@ -11,9 +11,6 @@
 
 namespace app {
 
-inline constexpr char kMeshHelp[] = "Mesh at the start of the step: .ply, .obj, .off or .stl";
-inline constexpr char kEndHelp[] = "The same mesh at its end: the same faces, wires and points in the same order";
-
 using SceneWork = std::function<void(const Scene& scene, const onset::Options& options, Outputs& outputs)>;
 
 // Adds the subcommand with its arguments A and B. Its run reads the scene, opens the outputs, then calls
@@ -25,7 +22,5 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
 // One line where the start intersects or touches itself, which no step can mend. `in_contact`: the result says that a
 // pair touches at t = 0, or is closer than the separation.
 void note_start(const Scene& scene, const onset::Options& options, bool in_contact, Outputs& outputs);
-
-std::string describe_sizes(const onset::Mesh& mesh);
 
 }  // namespace app

@@ -72,6 +72,8 @@ Json seconds_json(const onset::Stats& s) {
   return {{"broad", s.seconds_broad}, {"narrow", s.seconds_narrow}, {"total", s.seconds_total}};
 }
 
+Json spread_json(const Spread& s) { return {{"median", s.median}, {"min", s.least}, {"max", s.most}}; }
+
 Json time_json(double time) { return std::isfinite(time) ? Json(time) : Json(); }
 
 // toi_hi is null where no contact is certain by any time.
@@ -157,6 +159,13 @@ std::string describe_step(const onset::StepResult& r) {
 
 std::string describe_sizes(std::ptrdiff_t vertices, std::ptrdiff_t edges, std::ptrdiff_t faces) {
   return format("mesh        %td vertices, %td edges, %td faces\n", vertices, edges, faces);
+}
+
+std::string describe_sizes(const onset::Mesh& mesh) {
+  const std::ptrdiff_t points = mesh.num_points();
+  std::string text = describe_sizes(mesh.num_vertices(), mesh.num_edges() - points, mesh.num_faces());
+  if (points > 0) text.insert(text.size() - 1, format(", %td points (edges of length 0 behind all others)", points));
+  return text;
 }
 
 std::string describe_stats(const onset::Stats& s) {

@@ -1,10 +1,12 @@
 // The pieces that the subcommands' results share, as JSON, CSV and words.
 #pragma once
 
+#include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>
 #include <string>
 
+#include "measure/timing.hpp"
 #include "onset/results/outputs.hpp"
 
 namespace app {
@@ -15,6 +17,7 @@ Json to_json(const onset::Pair& pair);          // {kind, a, b, vertices}, null 
 Json to_json(const onset::PairPlan& plan);
 Json to_json(const onset::Stats& stats);
 Json seconds_json(const onset::Stats& stats);  // {broad, narrow, total}
+Json spread_json(const Spread& spread);        // {median, min, max}
 Json time_json(double time);  // null for never
 Json step_json(const onset::StepResult& result);
 Json active_set_json(const onset::ActiveSet& set);
@@ -28,6 +31,7 @@ std::string describe_edge(int edge, int v, int w);  // "edge 4 (vertices 1 2)", 
 std::string describe(const onset::PairCounts& counts);
 std::string describe_step(const onset::StepResult& result);
 std::string describe_sizes(std::ptrdiff_t vertices, std::ptrdiff_t edges, std::ptrdiff_t faces);
+std::string describe_sizes(const onset::Mesh& mesh);
 std::string describe_stats(const onset::Stats& stats);  // candidates, tolerance, seconds
 
 }  // namespace app

@@ -5,7 +5,6 @@
 #include "files/error.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
-#include "onset/commands/scene_command.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/trade/sweep.hpp"
 #include "onset/trade/trade_report.hpp"

@@ -4,7 +4,7 @@
 #include "files/input_output.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/memory.hpp"
-#include "onset/commands/scene_command.hpp"
+#include "onset/results/report.hpp"
 #include "onset/trade/subject.hpp"
 
 namespace app {

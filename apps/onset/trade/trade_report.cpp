@@ -21,11 +21,6 @@ std::string or_dash(const std::optional<std::int64_t>& x) {
   return x ? std::to_string(*x) : std::string("-");
 }
 
-Json spread_json(const std::vector<double>& values) {
-  const Spread s = spread(values);
-  return {{"median", s.median}, {"min", s.least}, {"max", s.most}};
-}
-
 std::vector<std::int64_t> binned(const Measured& m, bool collides) {
   std::vector<std::int64_t> bins;
   for (std::size_t i = 0; i < m.best_us.size(); ++i) {
@@ -75,9 +70,9 @@ Json measured_json(const Measured& m, bool on_front) {
           {"numbers", options_json(m.setting.options)},
           {"same_question", m.setting.same_question},
           {"on_front", on_front},
-          {"us", spread_json(m.us)},
-          {"wall_us", spread_json(m.wall)},
-          {"cpu_us", spread_json(m.cpu)},
+          {"us", spread_json(spread(m.us))},
+          {"wall_us", spread_json(spread(m.wall))},
+          {"cpu_us", spread_json(spread(m.cpu))},
           {"asked", a.asked},
           {"positives", a.positives},
           {"certain", a.certain},
