@@ -9,7 +9,7 @@
 #include <random>
 
 #include "files/error.hpp"
-#include "files/mesh/mesh_readers.hpp"
+#include "files/mesh/mesh_file.hpp"
 #include "files/scene/scene.hpp"
 #include "files/text_lines.hpp"
 #include "tests/catch.hpp"

@@ -20,7 +20,7 @@
 #include "files/error.hpp"
 #include "files/queries/query_kind.hpp"
 #include "files/queries/truth_file.hpp"
-#include "measure/machine.hpp"
+#include "measure/system.hpp"
 #include "measure/timing.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 
 #include "files/error.hpp"
 #include "files/input_output.hpp"
-#include "files/mesh/mesh_readers.hpp"
+#include "files/mesh/mesh_file.hpp"
 
 namespace app {
 namespace {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace app {
@@ -39,5 +40,18 @@ struct MeshFile {
 // file, the line of a text, and the cause: missing, unreadable, another format and what converts it, a position that
 // is not three finite numbers, an index out of range, rows that are too few or too many.
 MeshFile read_mesh(const std::string& path);
+
+// The same for the bytes of a file of each format; `path` is for messages.
+//
+// Wavefront OBJ: v, f, l, p. Normals, textures, groups and materials are skipped, as are keywords that are not
+// OBJ's, with a note; curves, surfaces and calls of other files are refused.
+MeshFile read_obj(const std::string& path, std::string_view text);
+// PLY, ascii and binary of both endians: vertex, face, edge. Other elements are skipped, with a note; triangle
+// strips are refused.
+MeshFile read_ply(const std::string& path, std::string_view bytes);
+// OFF, ascii and binary.
+MeshFile read_off(const std::string& path, std::string_view bytes);
+// STL, ascii and binary; each corner is a vertex of its own.
+MeshFile read_stl(const std::string& path, std::string_view bytes);
 
 }  // namespace app

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "files/mesh/mesh_builder.hpp"
-#include "files/mesh/mesh_readers.hpp"
+#include "files/mesh/mesh_file.hpp"
 #include "files/text_lines.hpp"
 
 namespace app {

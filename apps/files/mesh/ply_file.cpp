@@ -2,7 +2,7 @@
 // counts that no file of that length can hold, and cannot tell the line of a fault.
 #include <algorithm>
 
-#include "files/mesh/mesh_readers.hpp"
+#include "files/mesh/mesh_file.hpp"
 #include "files/mesh/ply_body.hpp"
 #include "files/text_lines.hpp"
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "measure/memory.hpp"
+#include "measure/system.hpp"
 
 namespace app {
 namespace {

@@ -6,7 +6,7 @@
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
 #include "onset/results/progress.hpp"
-#include "onset/trade/sweep.hpp"
+#include "onset/trade/subject.hpp"
 #include "onset/trade/trade_report.hpp"
 
 namespace app {

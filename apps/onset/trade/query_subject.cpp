@@ -6,7 +6,7 @@
 #include "files/queries/query_file.hpp"
 #include "files/queries/query_kind.hpp"
 #include "files/queries/truth_file.hpp"
-#include "measure/memory.hpp"
+#include "measure/system.hpp"
 #include "onset/trade/subject.hpp"
 
 namespace app {

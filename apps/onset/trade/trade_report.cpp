@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/machine.hpp"
+#include "measure/system.hpp"
 #include "onset/results/report.hpp"
 
 namespace app {

@@ -1,7 +1,9 @@
-#include "measure/memory.hpp"
+#include "measure/system.hpp"
 
 #include <fstream>
+#include <onset/onset.hpp>
 #include <string>
+#include <thread>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -33,6 +35,23 @@ void return_freed_memory() {
 #endif
 }
 
+// The value of the first line "model name : ..." of /proc/cpuinfo.
+std::string cpu_model() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.rfind("model name", 0) != 0) continue;
+    const std::size_t colon = line.find(": ");
+    if (colon != line.npos) return line.substr(colon + 2);
+  }
+  return "a CPU that does not tell its name";
+}
+
+std::string kernel() {
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Identity(3, 3);
+  const onset::Mesh mesh(x, (Eigen::MatrixXi(1, 3) << 0, 1, 2).finished());
+  return onset::construct_active_set(mesh, x, x).stats.kernel;
+}
+
 }  // namespace
 
 std::optional<std::int64_t> peak_bytes(const std::function<void()>& work) {
@@ -43,6 +62,12 @@ std::optional<std::int64_t> peak_bytes(const std::function<void()>& work) {
   const std::int64_t peak = status_bytes("VmHWM");
   if (!can_tell || before < 0 || peak < before) return std::nullopt;
   return peak - before;
+}
+
+std::string machine() {
+  const unsigned cores = std::thread::hardware_concurrency();
+  return cpu_model() + ", " + std::to_string(cores) + (cores == 1 ? " core" : " cores") + ", onset kernel " +
+         kernel();
 }
 
 }  // namespace app

@@ -1,6 +1,17 @@
-#include "onset/trade/sweep.hpp"
+#include "onset/trade/subject.hpp"
+
+#include <algorithm>
 
 namespace app {
+
+onset::Options finest(onset::Options base) {
+  base.tolerance.reset();
+  base.relative_tolerance = 1e-12;
+  base.max_checks = std::max<std::int64_t>(base.max_checks, 1'000'000);
+  base.narrow_phase = onset::NarrowPhaseMethod::automatic;
+  base.certainty = onset::CertaintyLevel::conservative;
+  return base;
+}
 
 std::vector<Measured> sweep(Subject& subject, const std::vector<Setting>& settings, const SweepPlan& plan,
                             const std::function<void()>& done) {
