@@ -41,4 +41,12 @@ class Stopwatch {
   double cpu_ = cpu_now();
 };
 
+// Wall time of one call, for those too short for CPU clocks.
+template <class Call>
+double microseconds(Call&& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace app

@@ -8,7 +8,6 @@
 // finder answered and the microseconds it took, the better of two runs for each query, CPU time where it took
 // long.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -106,20 +105,13 @@ struct Tally {
   }
 };
 
-template <class Call>
-double microseconds(Call&& call) {
-  const auto start = std::chrono::steady_clock::now();
-  call();
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-}
-
 // The better of two; CPU time where it is so long that it may have been interrupted.
 template <class Call>
 double time_of(Call&& call) {
   constexpr double kLong = 200;
-  const double first = microseconds(call);
+  const double first = app::microseconds(call);
   const app::Stopwatch watch;
-  const double second = microseconds(call), cpu = 1e6 * watch.elapsed().cpu;
+  const double second = app::microseconds(call), cpu = 1e6 * watch.elapsed().cpu;
   return std::min({first, second, std::max(first, second) > kLong ? cpu : second});
 }
 

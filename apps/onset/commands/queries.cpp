@@ -1,12 +1,12 @@
 // onset queries: single queries against their known truth.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "files/error.hpp"
 #include "files/input_output.hpp"
 #include "files/queries/query_kind.hpp"
+#include "measure/timing.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
 #include "onset/exports/query_dump.hpp"
@@ -50,10 +50,8 @@ template <class Call>
 double timed(Call&& call) {
   double shortest = 0;
   for (int i = 0; i < 3; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    call();
-    const std::chrono::duration<double, std::micro> us = std::chrono::steady_clock::now() - start;
-    shortest = i == 0 ? us.count() : std::min(shortest, us.count());
+    const double us = microseconds(call);
+    shortest = i == 0 ? us : std::min(shortest, us);
     if (shortest < 500) break;
   }
   return shortest;

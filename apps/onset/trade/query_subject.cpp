@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "files/input_output.hpp"
@@ -78,10 +77,9 @@ class QuerySubject : public Subject {
     m.collides.resize(queries_.size());
     const Stopwatch watch;
     for (std::size_t i = 0; i < queries_.size(); ++i) {
-      const auto start = std::chrono::steady_clock::now();
-      m.collides[i] = ask(queries_[i].kind, queries_[i].query, m.setting.options).collides();
-      const std::chrono::duration<double, std::micro> us = std::chrono::steady_clock::now() - start;
-      m.best_us[i] = std::min(m.best_us[i], us.count());
+      const double us = microseconds(
+          [&] { m.collides[i] = ask(queries_[i].kind, queries_[i].query, m.setting.options).collides(); });
+      m.best_us[i] = std::min(m.best_us[i], us);
     }
     const Seconds seconds = watch.elapsed();
     const double each = 1e6 / double(queries_.size());
