@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+// The only look inside the library under apps/.
 #include "base/parallel.hpp"
 #include "broadphase/broad_phase.hpp"
 
@@ -16,6 +17,13 @@ void store(void* list, const onset::IdPair* pairs, std::size_t count) {
 }
 
 }  // namespace
+
+struct StoredPairs::Lists {
+  std::vector<onset::IdPair> vertex_face, edge_edge;
+};
+
+StoredPairs::StoredPairs(const onset::Mesh& mesh) : mesh_(&mesh) {}
+StoredPairs::~StoredPairs() = default;
 
 onset::PairCounts StoredPairs::find(const onset::Positions& x_t0, const onset::Positions& x_t1, int threads) {
   lists_.resize(std::size_t(threads));
