@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "files/error.hpp"
-#include "files/scene/merged_corners.hpp"
+#include "files/scene/places.hpp"
 #include "files/scene/triangulate.hpp"
 #include "files/text_lines.hpp"
 
