@@ -17,4 +17,4 @@ cmake --build "$build" --target onset_cli onset_extreme_queries --parallel "$(np
 
 rm -rf "$queries"
 "$build/tests/accuracy/onset_extreme_queries" "$queries" "${1:-20}" "${2:-1}"
-exec "$venv/bin/python" "$root/apps/bench/compare_accuracy.py" --onset "$build/apps/onset" --queries "$queries"
+exec "$venv/bin/python" "$root/apps/bench/scripts/compare_accuracy.py" --onset "$build/apps/onset" --queries "$queries"

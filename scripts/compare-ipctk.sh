@@ -27,11 +27,11 @@ case "${1:-}" in
     ;;
 esac
 
-"$venv/bin/python" "$root/apps/bench/compare_ipctk.py" --server "$build/apps/bench/onset_bench_server" "$@"
+"$venv/bin/python" "$root/apps/bench/scripts/compare_ipctk.py" --server "$build/apps/bench/onset_bench_server" "$@"
 
 echo
 echo "Intersections of one frame, one thread, CPU time"
-"$venv/bin/python" "$root/apps/bench/compare_intersections.py" --server "$build/apps/bench/onset_bench_server" "$@"
+"$venv/bin/python" "$root/apps/bench/scripts/compare_intersections.py" --server "$build/apps/bench/onset_bench_server" "$@"
 
 echo
 echo "Broad phases of other libraries, one thread, swept boxes, CPU time"

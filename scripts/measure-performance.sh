@@ -9,7 +9,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 build="${ONSET_BUILD:-$root/build}"
 venv="$build/venv-ipctk"
 out="$build/performance"
-bench="$root/apps/bench"
+bench="$root/apps/bench/scripts"
 : "${ONSET_DATA:?the folder that holds scenes/}"
 
 document="$root/docs/performance.md"

@@ -46,7 +46,7 @@ ask() {  # name, boxes, checks, seconds, every, folders
   name=$1 boxes=$2 checks=$3 limit=$4 each=$5
   shift 5
   say "root finders: $name"
-  "$venv/bin/python" "$root/apps/bench/ask_ipctk.py" --every "$each" --checks "$checks" --limit "$limit" "$@" \
+  "$venv/bin/python" "$root/apps/bench/scripts/ask_ipctk.py" --every "$each" --checks "$checks" --limit "$limit" "$@" \
     >"$out/ipctk-$name.json"
   for folder; do
     set -- "$@" "$folder/data.csv"
@@ -75,4 +75,4 @@ for delta in 1e-1 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7 1e-8; do
 done
 
 say "tables and plots"
-"$venv/bin/python" "$root/apps/bench/report_trade.py" "$out" "$root/docs"
+"$venv/bin/python" "$root/apps/bench/scripts/report_trade.py" "$out" "$root/docs"

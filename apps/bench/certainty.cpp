@@ -11,9 +11,9 @@
 #include <cstring>
 #include <vector>
 
-#include "error.hpp"
-#include "scene.hpp"
-#include "timing.hpp"
+#include "files/error.hpp"
+#include "files/scene/scene.hpp"
+#include "measure/timing.hpp"
 
 namespace {
 

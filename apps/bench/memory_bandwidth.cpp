@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "timing.hpp"
+#include "measure/timing.hpp"
 
 namespace {
 

@@ -17,10 +17,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "error.hpp"
-#include "scene.hpp"
-#include "stored_pairs.hpp"
-#include "timing.hpp"
+#include "bench/peers/stored_pairs.hpp"
+#include "files/error.hpp"
+#include "files/scene/scene.hpp"
+#include "measure/timing.hpp"
 
 namespace {
 

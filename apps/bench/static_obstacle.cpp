@@ -6,10 +6,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <onset/onset.hpp>
 #include <string>
 #include <vector>
+
+#include "measure/timing.hpp"
 
 namespace {
 
@@ -52,12 +53,6 @@ Sheet joined(const Sheet& a, const Sheet& b) {
   return s;
 }
 
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
 // One case: its mesh, and the times of its calls so far.
 struct Case {
   const char* name;
@@ -81,22 +76,19 @@ struct Case {
     for (int v = 0; v < vertices_of_cloth; ++v)  // the cloth falls a little, differently each time
       scene.x_t1.row(v) =
           scene.x_t0.row(v) + 0.01 * Eigen::RowVector3d(std::sin(v + round), std::cos(2 * v - round), -1.5);
-    const double begin = cpu_seconds();
+    const app::Stopwatch watch;
     const onset::StepResult r = onset::compute_collision_free_stepsize(mesh, scene.x_t0, scene.x_t1, o);
-    const double middle = cpu_seconds();
+    const double middle = watch.elapsed().cpu;
     const onset::ActiveSet set = onset::construct_active_set(mesh, scene.x_t0, scene.x_t1, o);
-    const double end = cpu_seconds();
+    const double end = watch.elapsed().cpu;
     boxes_made += r.stats.made_static_boxes + set.stats.made_static_boxes;
     candidates = set.stats.candidates;
     if (round == 0) return;
-    step.push_back(1e3 * (middle - begin)), active.push_back(1e3 * (end - middle));
+    step.push_back(1e3 * middle), active.push_back(1e3 * (end - middle));
   }
 };
 
-double median(std::vector<double> x) {
-  std::nth_element(x.begin(), x.begin() + std::ptrdiff_t(x.size() / 2), x.end());
-  return x[x.size() / 2];
-}
+double median(const std::vector<double>& x) { return app::spread(x).median; }
 
 }  // namespace
 

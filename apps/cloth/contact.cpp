@@ -1,4 +1,4 @@
-#include "contact.hpp"
+#include "cloth/contact.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include <onset/close_pairs.hpp>
 
-#include "system.hpp"
+#include "cloth/system.hpp"
 
 namespace cloth {
 

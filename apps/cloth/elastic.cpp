@@ -1,4 +1,4 @@
-#include "elastic.hpp"
+#include "cloth/elastic.hpp"
 
 #include <algorithm>
 #include <map>

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "system.hpp"
+#include "cloth/system.hpp"
 
 namespace cloth {
 

@@ -1,4 +1,4 @@
-#include "intersections.hpp"
+#include "cloth/intersections.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "intersections.hpp"
-#include "output.hpp"
+#include "cloth/intersections.hpp"
+#include "cloth/output.hpp"
 
 namespace {
 

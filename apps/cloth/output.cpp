@@ -1,4 +1,4 @@
-#include "output.hpp"
+#include "cloth/output.hpp"
 
 #include <unistd.h>
 

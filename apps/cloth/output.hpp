@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "stepper.hpp"
+#include "cloth/stepper.hpp"
 
 namespace cloth {
 

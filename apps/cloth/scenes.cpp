@@ -1,4 +1,4 @@
-#include "scenes.hpp"
+#include "cloth/scenes.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "system.hpp"
+#include "cloth/system.hpp"
 
 namespace cloth {
 

@@ -1,4 +1,4 @@
-#include "stepper.hpp"
+#include "cloth/stepper.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -3,9 +3,9 @@
 
 #include <onset/onset.hpp>
 
-#include "contact.hpp"
-#include "elastic.hpp"
-#include "scenes.hpp"
+#include "cloth/contact.hpp"
+#include "cloth/elastic.hpp"
+#include "cloth/scenes.hpp"
 
 namespace cloth {
 

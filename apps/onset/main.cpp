@@ -4,8 +4,8 @@
 #include <exception>
 #include <string>
 
-#include "commands.hpp"
-#include "error.hpp"
+#include "files/error.hpp"
+#include "onset/command_line/commands.hpp"
 
 namespace {
 

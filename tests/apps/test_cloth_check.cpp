@@ -1,5 +1,5 @@
 // The exact check of the cloth simulator finds what it is there to find.
-#include "apps/cloth/intersections.hpp"
+#include "cloth/intersections.hpp"
 #include "tests/catch.hpp"
 
 namespace {

@@ -8,10 +8,10 @@
 #include <optional>
 #include <random>
 
-#include "apps/onset/error.hpp"
-#include "apps/onset/mesh_readers.hpp"
-#include "apps/onset/scene.hpp"
-#include "apps/onset/text_lines.hpp"
+#include "files/error.hpp"
+#include "files/mesh/mesh_file.hpp"
+#include "files/scene/scene.hpp"
+#include "files/text_lines.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
 

@@ -13,7 +13,7 @@ from support import APPS, AppTest, obj, ply, random_soup
 from test_queries import edge_edge, rows, vertex_face
 
 BASELINES = os.environ["ONSET_BASELINES"]
-BENCH = APPS / "bench"
+SCRIPTS = APPS / "bench" / "scripts"
 DOCUMENT = APPS.parent / "docs" / "accuracy-and-speed.md"
 MARKED = re.compile(r"<!-- measured: (\S+) -->\n(.*?)<!-- end -->", re.S)
 TRUTH = "0x1p-1,0x1p-1\ninf,inf\n0x1p-2,0x1p-2\n"  # of moving from 1 to -1, from 1 to 1/4, from 1/2 to -3/2
@@ -76,7 +76,7 @@ class Plots(AppTest):
                 self.baselines(f"tolerance-{name}-1e-{i}", "--tolerance", f"1e-{i}", *files)
         self.ask_all("stability", [f for what in ("scale", "offset") for x in ("1e0", "1e3")
                                    for f in self.queries(self.out / "stability" / what / x)])
-        text = self.script(BENCH / "report_trade.py", self.out, docs)
+        text = self.script(SCRIPTS / "report_trade.py", self.out, docs)
         self.assertIn("times of impact later than the exact ones", text)
         filled = (docs / DOCUMENT.name).read_text()
         self.assertEqual([mark for mark, _ in MARKED.findall(filled)], list(marks))

@@ -2,13 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "arguments.hpp"
-#include "commands.hpp"
-#include "error.hpp"
-#include "progress.hpp"
-#include "scene_command.hpp"
-#include "sweep.hpp"
-#include "trade_report.hpp"
+#include "files/error.hpp"
+#include "onset/command_line/arguments.hpp"
+#include "onset/command_line/commands.hpp"
+#include "onset/results/progress.hpp"
+#include "onset/trade/subject.hpp"
+#include "onset/trade/trade_report.hpp"
 
 namespace app {
 namespace {
@@ -58,9 +57,7 @@ void add_inputs(CLI::App& command, Inputs& inputs) {
           "Instead of A and B, queries with truth: CSV, eight rows a query; exact times from a toi.csv "
           "beside the file, if there is one: a row lo,hi a query")
       ->type_name("FILE ...");
-  command.add_option("--kind", inputs.kind, "Kind of all queries; otherwise each path tells")
-      ->check(CLI::IsMember({"vf", "ee"}))
-      ->type_name("NAME");
+  add_kind(command, inputs.kind);
   command
       .add_option("--truth", inputs.truth,
                   "Which pairs of A and B collide: PAIRS.json,COLLIDES.json, or a CSV with "

@@ -1,4 +1,4 @@
-#include "front.hpp"
+#include "onset/trade/front.hpp"
 
 #include <algorithm>
 #include <tuple>

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "subject.hpp"
+#include "onset/trade/subject.hpp"
 
 namespace app {
 

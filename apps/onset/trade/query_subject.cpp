@@ -1,12 +1,12 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
-#include "memory.hpp"
-#include "output.hpp"
-#include "query_file.hpp"
-#include "subject.hpp"
-#include "truth_file.hpp"
+#include "files/input_output.hpp"
+#include "files/queries/query_file.hpp"
+#include "files/queries/query_kind.hpp"
+#include "files/queries/truth_file.hpp"
+#include "measure/system.hpp"
+#include "onset/trade/subject.hpp"
 
 namespace app {
 namespace {
@@ -77,10 +77,9 @@ class QuerySubject : public Subject {
     m.collides.resize(queries_.size());
     const Stopwatch watch;
     for (std::size_t i = 0; i < queries_.size(); ++i) {
-      const auto start = std::chrono::steady_clock::now();
-      m.collides[i] = ask(queries_[i].kind, queries_[i].query, m.setting.options).collides();
-      const std::chrono::duration<double, std::micro> us = std::chrono::steady_clock::now() - start;
-      m.best_us[i] = std::min(m.best_us[i], us.count());
+      const double us = microseconds(
+          [&] { m.collides[i] = ask(queries_[i].kind, queries_[i].query, m.setting.options).collides(); });
+      m.best_us[i] = std::min(m.best_us[i], us);
     }
     const Seconds seconds = watch.elapsed();
     const double each = 1e6 / double(queries_.size());
@@ -90,8 +89,7 @@ class QuerySubject : public Subject {
 
  private:
   void read(const std::string& file, const std::string& kind) {
-    const onset::PairKind given = kind == "vf" ? onset::PairKind::vertex_face : onset::PairKind::edge_edge;
-    const onset::PairKind k = kind.empty() ? kind_from_path(file) : given;
+    const onset::PairKind k = kind_of_file(file, kind);
     std::vector<bool> collides;
     const std::vector<TruthQuery> queries = read_queries(file);
     for (const TruthQuery& query : queries) collides.push_back(query.collides);

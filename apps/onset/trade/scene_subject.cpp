@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <thread>
 
-#include "memory.hpp"
-#include "output.hpp"
-#include "scene_command.hpp"
-#include "subject.hpp"
-#include "truth_file.hpp"
+#include "files/input_output.hpp"
+#include "files/queries/truth_file.hpp"
+#include "measure/system.hpp"
+#include "onset/results/report.hpp"
+#include "onset/trade/subject.hpp"
 
 namespace app {
 namespace {
@@ -133,15 +133,6 @@ class SceneSubject : public Subject {
 std::unique_ptr<Subject> scene_subject(const std::string& a, const std::string& b,
                                        const std::vector<std::string>& truth, const onset::Options& base) {
   return std::make_unique<SceneSubject>(a, b, truth, base);
-}
-
-onset::Options finest(onset::Options base) {
-  base.tolerance.reset();
-  base.relative_tolerance = 1e-12;
-  base.max_checks = std::max<std::int64_t>(base.max_checks, 1'000'000);
-  base.narrow_phase = onset::NarrowPhaseMethod::automatic;
-  base.exactness = onset::Exactness::conservative;
-  return base;
 }
 
 }  // namespace app

@@ -1,8 +1,9 @@
-#include "setting.hpp"
+#include "onset/trade/setting.hpp"
 
 #include <algorithm>
 
-#include "output.hpp"
+#include "files/input_output.hpp"
+#include "onset/results/report.hpp"
 
 namespace app {
 namespace {
@@ -64,7 +65,7 @@ void norm(Axis& axis, const Options& base, const Grounds& grounds) {
   for (const Norm n : {Norm::euclidean, Norm::maximum}) {
     if (n == base.norm && d == base.min_separation) continue;
     axis.add(
-        format("%s, separation %.3g", n == Norm::maximum ? "maximum" : "euclidean", d),
+        format("%s, separation %.3g", norm_name(n), d),
         [&](Options& o) { o.norm = n, o.min_separation = d; }, false);
   }
 }
@@ -144,7 +145,6 @@ const char* word(Exactness c) {
          : c == Exactness::certify ? "Exactness::certify"
                                         : "Exactness::conservative";
 }
-const char* word(Norm n) { return n == Norm::maximum ? "Norm::maximum" : "Norm::euclidean"; }
 
 }  // namespace
 
@@ -179,7 +179,7 @@ std::string in_words(const Options& o) {
   say(o.relative_tolerance != defaults.relative_tolerance,
       format("relative_tolerance = %.3g", o.relative_tolerance));
   say(o.min_separation != defaults.min_separation, format("min_separation = %.17g", o.min_separation));
-  say(o.norm != defaults.norm, std::string("norm = ") + word(o.norm));
+  say(o.norm != defaults.norm, std::string("norm = Norm::") + norm_name(o.norm));
   say(o.max_checks != defaults.max_checks, format("max_checks = %lld", static_cast<long long>(o.max_checks)));
   say(o.threads != defaults.threads, format("threads = %d", o.threads));
   say(o.broad_phase != defaults.broad_phase, std::string("broad_phase = ") + word(o.broad_phase));

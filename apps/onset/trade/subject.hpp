@@ -1,16 +1,17 @@
-// What a setting is tried on: a scene, or queries.
+// What settings are tried on: a scene, or queries; and the round of tries.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <onset/onset.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scene.hpp"
-#include "setting.hpp"
-#include "timing.hpp"
+#include "files/scene/scene.hpp"
+#include "measure/timing.hpp"
+#include "onset/trade/setting.hpp"
 
 namespace app {
 
@@ -80,5 +81,15 @@ onset::Options finest(onset::Options base);
 inline bool same_question(const onset::Options& a, const onset::Options& b) {
   return a.min_separation == b.min_separation && (a.norm == b.norm || a.min_separation == 0);
 }
+
+struct SweepPlan {
+  int repeats = 9;
+  double seconds = 5;  // a setting is measured once, and again as long as this is not spent on it
+};
+
+// Tries every setting: one round for the answers, which warms up too, then rounds over all settings in turn, so that
+// what drifts on the machine meets them all. `done` is called after each call.
+std::vector<Measured> sweep(Subject& subject, const std::vector<Setting>& settings, const SweepPlan& plan,
+                            const std::function<void()>& done);
 
 }  // namespace app

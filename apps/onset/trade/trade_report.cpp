@@ -1,9 +1,10 @@
-#include "trade_report.hpp"
+#include "onset/trade/trade_report.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "machine.hpp"
+#include "measure/system.hpp"
+#include "onset/results/report.hpp"
 
 namespace app {
 namespace {
@@ -18,11 +19,6 @@ Json or_null(const std::optional<T>& x) {
 }
 std::string or_dash(const std::optional<std::int64_t>& x) {
   return x ? std::to_string(*x) : std::string("-");
-}
-
-Json spread_json(const std::vector<double>& values) {
-  const Spread s = spread(values);
-  return {{"median", s.median}, {"min", s.least}, {"max", s.most}};
 }
 
 std::vector<std::int64_t> binned(const Measured& m, bool collides) {
@@ -60,7 +56,7 @@ Json options_json(const onset::Options& o) {
   return {{"tolerance", or_null(o.tolerance)},
           {"relative_tolerance", o.relative_tolerance},
           {"min_separation", o.min_separation},
-          {"norm", o.norm == onset::Norm::maximum ? "maximum" : "euclidean"},
+          {"norm", norm_name(o.norm)},
           {"max_checks", o.max_checks},
           {"certainty", word(o.exactness)},
           {"threads", o.threads}};
@@ -74,9 +70,9 @@ Json measured_json(const Measured& m, bool on_front) {
           {"numbers", options_json(m.setting.options)},
           {"same_question", m.setting.same_question},
           {"on_front", on_front},
-          {"us", spread_json(m.us)},
-          {"wall_us", spread_json(m.wall)},
-          {"cpu_us", spread_json(m.cpu)},
+          {"us", spread_json(spread(m.us))},
+          {"wall_us", spread_json(spread(m.wall))},
+          {"cpu_us", spread_json(spread(m.cpu))},
           {"asked", a.asked},
           {"positives", a.positives},
           {"certain", a.certain},

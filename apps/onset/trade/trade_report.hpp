@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "front.hpp"
-#include "output.hpp"
-#include "subject.hpp"
+#include "onset/results/outputs.hpp"
+#include "onset/trade/front.hpp"
+#include "onset/trade/subject.hpp"
 
 namespace app {
 

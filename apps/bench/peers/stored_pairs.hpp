@@ -1,0 +1,26 @@
+// The broad phase from positions to a list of all pairs, in memory kept from call to call: what the peers'
+// broad phases are compared with.
+#pragma once
+
+#include <onset/onset.hpp>
+#include <vector>
+
+namespace app {
+
+class StoredPairs {
+ public:
+  explicit StoredPairs(const onset::Mesh& mesh);
+  ~StoredPairs();
+  StoredPairs(const StoredPairs&) = delete;
+
+  // Finds and stores every pair whose swept boxes overlap: motion, boxes, tree, pairs, nothing reused but
+  // memory. In at most `threads` threads, each with lists of its own.
+  onset::PairCounts find(const onset::Positions& x_t0, const onset::Positions& x_t1, int threads);
+
+ private:
+  struct Lists;  // of one thread, by kind
+  const onset::Mesh* mesh_;
+  std::vector<Lists> lists_;
+};
+
+}  // namespace app

@@ -1,0 +1,124 @@
+// onset bench: what the calls cost, on a scene of files or on generated ones.
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+
+#include "files/error.hpp"
+#include "onset/bench/bench_report.hpp"
+#include "onset/bench/generated.hpp"
+#include "onset/command_line/arguments.hpp"
+#include "onset/command_line/bodies.hpp"
+#include "onset/command_line/commands.hpp"
+#include "onset/results/progress.hpp"
+
+namespace app {
+namespace {
+
+struct Inputs : Arguments {
+  std::string a, b;
+  std::vector<std::int64_t> cloths;
+  int repeats = 5, refine = 0;
+  bool weld = false;
+};
+
+Faces faces_of(const onset::Mesh& mesh) {
+  Faces faces(mesh.num_faces(), 3);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    for (int c = 0; c < 3; ++c) faces(f, c) = mesh.face(f)[std::size_t(c)];
+  return faces;
+}
+
+Scene to_scene(Frames frames) {
+  onset::Mesh mesh(frames.x_t0.rows(), frames.faces);
+  return {std::move(mesh), std::move(frames.x_t0), std::move(frames.x_t1), {}, "", false};
+}
+
+Scene read_refined(const Inputs& inputs, int times) {
+  Scene scene = read_scene(inputs.a, inputs.b);
+  if (times == 0) {
+    if (inputs.weld) scene.mesh.set_weld(true);
+    return scene;
+  }
+  Frames frames{std::move(scene.x_t0), std::move(scene.x_t1), faces_of(scene.mesh)};
+  const bool is_surface = onset::edges(frames.faces).rows() == scene.mesh.num_edges();
+  if (!is_surface) throw UsageError("bench: --refine divides faces, " + inputs.a + " has wires or points");
+  return to_scene(refined(std::move(frames), times));
+}
+
+NamedCost bench(const std::string& name, const Scene& scene, const onset::Options& options, int repeats) {
+  return {name, scene.mesh.num_vertices(), scene.mesh.num_edges(), scene.mesh.num_faces(),
+          bench_scene(scene, options, repeats)};
+}
+
+// The scenes one after another, each as it is and then refined; only one is in memory at a time.
+std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& options, Outputs& outputs) {
+  std::vector<NamedCost> costs;
+  const auto each_refinement = [&](const std::string& name, const std::function<Scene(int)>& make) {
+    for (int times = 0; times <= inputs.refine; ++times) {
+      const Progress progress("bench " + name);
+      costs.push_back(bench(times ? format("%s, refined %d times", name.c_str(), times) : name, make(times),
+                            options, inputs.repeats));
+    }
+  };
+  if (!inputs.a.empty())
+    each_refinement(inputs.a, [&](int times) {
+      Scene scene = read_refined(inputs, times);
+      for (const std::string& note : scene.notes) outputs.note(note);
+      return scene;
+    });
+  for (const std::int64_t n : inputs.cloths)
+    each_refinement(format("layered cloth, %lld triangles", static_cast<long long>(n)),
+                    [&](int times) { return to_scene(refined(layered_cloth(n), times)); });
+  return costs;
+}
+
+void run_bench(const Inputs& inputs) {
+  const onset::Options options = to_options(inputs);
+  if (inputs.a.empty() == inputs.cloths.empty())
+    throw UsageError("bench: either two frames A and B or --cloth");
+  if (!inputs.a.empty() && inputs.b.empty()) throw UsageError("bench: B is missing");
+  if (inputs.weld && (inputs.a.empty() || inputs.refine > 0))
+    throw UsageError("bench: --weld is for the frames A and B as they are, not refined");
+  Outputs outputs(inputs);
+  const std::vector<NamedCost> costs = bench_all(inputs, options, outputs);
+  if (outputs.csv()) write_csv(*outputs.csv(), costs);
+  Json json = {{"repeats", inputs.repeats}, {"scenes", Json::array()}};
+  std::string text;
+  for (const NamedCost& cost : costs) {
+    json["scenes"].push_back(cost_json(cost));
+    text += describe(cost, inputs.repeats);
+  }
+  outputs.finish(json, costs.size() > 1 ? text + describe_curve(costs) : text);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Run& run) {
+  const auto inputs = std::make_shared<Inputs>();
+  CLI::App* command =
+      app.add_subcommand("bench", "Times, pairs at each stage and memory of the library's calls on a scene");
+  command->add_option("A", inputs->a, kMeshHelp);
+  command->add_option("B", inputs->b, kEndHelp);
+  command
+      ->add_option("--cloth", inputs->cloths,
+                   "Instead of A and B, a generated scene of about COUNT triangles; several for a curve")
+      ->type_name("COUNT,...")
+      ->delimiter(',')
+      ->check(CLI::Range(std::int64_t(4), std::int64_t(1'000'000'000)));
+  command
+      ->add_option("--refine", inputs->refine,
+                   "Divide each triangle into four, up to TIMES over, and measure each time")
+      ->type_name("TIMES")
+      ->check(CLI::Range(0, 8));
+  command
+      ->add_option("--repeats", inputs->repeats,
+                   "Runs of each call, after one to warm up; 0: times that one, for scenes that take long")
+      ->type_name("COUNT")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  add_weld(*command, inputs->weld);
+  add_common_options(*command, *inputs, "one row a scene, its size and the cost of the active set");
+  command->callback([&run, inputs] { run = [inputs] { run_bench(*inputs); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,58 @@
+#include "onset/command_line/bodies.hpp"
+
+#include "files/error.hpp"
+
+namespace app {
+namespace {
+
+std::vector<bool> flags(const char* option, const std::vector<int>& bodies, int count) {
+  std::vector<bool> marks(static_cast<std::size_t>(count));
+  for (const int b : bodies) {
+    if (b < 0 || b >= count)
+      throw UsageError(std::string(option) + " " + std::to_string(b) + ": there are " +
+                       std::to_string(count) + " bodies, numbered from 0" +
+                       (count == 1 ? " (see --bodies components)" : ""));
+    marks[static_cast<std::size_t>(b)] = true;
+  }
+  return marks;
+}
+
+}  // namespace
+
+void add_weld(CLI::App& command, bool& weld) {
+  command.add_flag("--weld", weld,
+                   "Vertices at one place at both ends of the step count as one, as the copies at a seam do");
+}
+
+void add_body_options(CLI::App& command, BodyArguments& a) {
+  command.add_option("--bodies", a.bodies, "What a body is: all of the mesh, or each connected component")
+      ->check(CLI::IsMember({"one", "components"}))
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--static-body", a.fixed,
+                  "Body I stays where it is and never meets what is static (repeat)")
+      ->type_name("I")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--rigid-body", a.rigid, "Body I never meets itself (repeat)")
+      ->type_name("I")
+      ->expected(1)
+      ->take_all();
+  command.add_flag("--rigid", a.all_rigid, "No body meets itself");
+  add_weld(command, a.weld);
+}
+
+void set_bodies(const BodyArguments& a, Scene& scene) {
+  onset::Mesh& mesh = scene.mesh;
+  if (a.bodies == "components") mesh.set_bodies(mesh.components());
+  const int count = mesh.num_bodies();
+  const std::vector<bool> fixed = flags("--static-body", a.fixed, count);
+  std::vector<bool> rigid = flags("--rigid-body", a.rigid, count);
+  if (a.all_rigid) rigid.assign(rigid.size(), true);
+  if (!a.fixed.empty()) mesh.set_static(mesh.of_bodies(fixed));
+  if (a.all_rigid || !a.rigid.empty()) mesh.set_rigid(rigid);
+  if (a.weld) mesh.set_weld(true), scene.welded = true;
+}
+
+}  // namespace app

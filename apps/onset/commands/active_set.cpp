@@ -1,0 +1,54 @@
+// onset active-set: what touches during the step.
+#include <algorithm>
+
+#include "onset/commands/scene_command.hpp"
+#include "onset/exports/scene_files.hpp"
+#include "onset/results/progress.hpp"
+#include "onset/results/report.hpp"
+
+namespace app {
+namespace {
+
+onset::ActiveSet compute(const Scene& scene, const onset::Options& options) {
+  const Progress progress("active set");
+  return onset::construct_active_set(scene.mesh, scene.x_t0, scene.x_t1, options);
+}
+
+bool starts_in_contact(const onset::ActiveSet& set) {
+  return std::count(set.status.begin(), set.status.end(), onset::Outcome::initial_contact) > 0;
+}
+
+std::string summary(const onset::ActiveSet& set) {
+  const std::ptrdiff_t first = set.earliest();
+  std::string text = format("outcome     %s\ncontacts    %s\n", onset::to_string(set.outcome),
+                            describe(set.stats.contacts).c_str());
+  if (set.vertex >= 0) text += format("vertex      %d\n", set.vertex);
+  if (first >= 0)
+    text += format("earliest    t = %.17g, %s\n", set.toi[std::size_t(first)],
+                   describe(set.pair(std::size_t(first))).c_str());
+  return text + describe_stats(set.stats);
+}
+
+}  // namespace
+
+void add_active_set(CLI::App& app, Run& run) {
+  const auto files = std::make_shared<SceneFiles>();
+  std::shared_ptr<Arguments> arguments;
+  CLI::App* command = add_scene_command(
+      app, run, "active-set", "Every pair that comes into contact between A and B, with its time of impact",
+      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit (vf: vertex and face; ee: "
+      "edges in the order of igl::edges; w: weights of the vertices at the contact point; n: unit normal; "
+      "speed < 0 closes)",
+      [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
+        const onset::ActiveSet set = compute(scene, options);
+        if (set.vertex < 0) note_start(scene, options, starts_in_contact(set), outputs);
+        if (outputs.csv()) write_active_set_csv(*outputs.csv(), set);
+        write_files(*files, scene, options, set);
+        outputs.finish(active_set_json(set), describe_sizes(scene.mesh) + summary(set));
+      },
+      &arguments);
+  add_window(*command, *arguments);
+  add_scene_files(*command, *files);
+}
+
+}  // namespace app

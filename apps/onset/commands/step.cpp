@@ -1,0 +1,49 @@
+// onset step: how far the motion can go.
+#include "files/queries/query_kind.hpp"
+#include "onset/commands/scene_command.hpp"
+#include "onset/exports/scene_files.hpp"
+#include "onset/results/progress.hpp"
+#include "onset/results/report.hpp"
+
+namespace app {
+namespace {
+
+constexpr char kColumns[] = "outcome,step,kind,a,b,v0,v1,v2,v3,toi,toi_hi,rounding";
+
+void write_csv(Output& csv, const onset::StepResult& r) {
+  csv.write(std::string(kColumns) + "\n");
+  csv.write(format("%s,%.17g,", onset::to_string(r.outcome), r.step));
+  const auto& v = r.limiting.vertices;
+  if (r.limiting.a < 0)
+    csv.write(",,,,,,");
+  else
+    csv.write(format("%s,%d,%d,%d,%d,%d,%d", kind_name(r.limiting.kind), r.limiting.a, r.limiting.b, v[0],
+                     v[1], v[2], v[3]));
+  csv.write(format(",%.17g,%.17g,%.17g\n", r.toi, r.toi_hi, r.rounding));
+}
+
+onset::StepResult compute(const Scene& scene, const onset::Options& options) {
+  const Progress progress("step");
+  return onset::compute_collision_free_stepsize(scene.mesh, scene.x_t0, scene.x_t1, options);
+}
+
+}  // namespace
+
+void add_step(CLI::App& app, Run& run) {
+  const auto files = std::make_shared<SceneFiles>();
+  CLI::App* command = add_scene_command(
+      app, run, "step", "The largest step from A towards B that is certainly free of contact",
+      kColumns,
+      [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
+        const onset::StepResult result = compute(scene, options);
+        const bool in_contact = result.outcome == onset::Outcome::initial_contact;
+        if (result.vertex < 0) note_start(scene, options, in_contact, outputs);
+        if (outputs.csv()) write_csv(*outputs.csv(), result);
+        write_files(*files, scene, options, result);
+        outputs.finish(step_json(result),
+                       describe_sizes(scene.mesh) + describe_step(result) + describe_stats(result.stats));
+      });
+  add_scene_files(*command, *files);
+}
+
+}  // namespace app

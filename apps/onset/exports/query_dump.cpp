@@ -1,0 +1,108 @@
+#include "onset/exports/query_dump.hpp"
+
+#include <cmath>
+
+#include <filesystem>
+#include <fstream>
+
+#include "files/error.hpp"
+#include "files/queries/query_kind.hpp"
+#include "files/queries/rational.hpp"
+#include "onset/results/report.hpp"
+
+namespace app {
+namespace {
+
+std::string without_ending(const std::string& path, const std::string& ending) {
+  const std::size_t size = path.size() - std::min(path.size(), ending.size());
+  return path.substr(size) == ending ? path.substr(0, size) : path;
+}
+
+Json to_json(const onset::Options& o) {
+  return {{"tolerance", *o.tolerance},
+          {"min_separation", o.min_separation},
+          {"norm", norm_name(o.norm)},
+          {"max_checks", o.max_checks},
+          {"touching_may_pass_through", o.touching_may_pass_through},
+          {"narrow_phase", o.narrow_phase == onset::NarrowPhaseMethod::inclusion ? "inclusion" : "auto"}};
+}
+
+onset::Options to_options(const Json& json) {
+  onset::Options o;
+  o.tolerance = json.at("tolerance").get<double>();
+  o.min_separation = json.at("min_separation").get<double>();
+  o.norm = json.at("norm") == "maximum" ? onset::Norm::maximum : onset::Norm::euclidean;
+  o.max_checks = json.at("max_checks").get<std::int64_t>();
+  o.touching_may_pass_through = json.value("touching_may_pass_through", false);
+  if (json.at("narrow_phase") == "inclusion") o.narrow_phase = onset::NarrowPhaseMethod::inclusion;
+  return o;
+}
+
+void write_query(Output& csv, const TruthQuery& query) {
+  for (const auto* end : {&query.t0, &query.t1})
+    for (const onset::Point& p : *end) {
+      for (const double x : p) csv.write(exact_rational(x) + ",");
+      csv.write(query.collides ? "1\n" : "0\n");
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> write_dump(const std::string& path, const std::vector<DumpedPair>& pairs,
+                                    const Points& x_t0, const Points& x_t1, const onset::Options& given,
+                                    double tolerance) {
+  onset::Options options = given;
+  options.tolerance = tolerance;
+  std::vector<std::string> written;
+  for (const onset::PairKind kind : {onset::PairKind::vertex_face, onset::PairKind::edge_edge}) {
+    const std::string name = without_ending(path, ".csv") + "-" + kind_name(kind);
+    std::optional<Output> csv;
+    Json queries = Json::array();
+    for (const DumpedPair& dumped : pairs) {
+      if (dumped.pair.kind != kind) continue;
+      if (!csv) csv.emplace(name + ".csv");
+      TruthQuery query;
+      for (std::size_t i = 0; i < 4; ++i) {
+        query.t0[i] = point(x_t0, dumped.pair.vertices[i]);
+        query.t1[i] = point(x_t1, dumped.pair.vertices[i]);
+      }
+      const onset::QueryResult r = ask(kind, query, options);
+      query.collides = r.collides();
+      write_query(*csv, query);
+      queries.push_back({{"a", dumped.pair.a},
+                         {"b", dumped.pair.b},
+                         {"why", dumped.why},
+                         {"outcome", onset::to_string(r.outcome)},
+                         {"toi", r.toi},
+                         {"checks", r.checks}});
+    }
+    if (!csv) continue;
+    csv->close();
+    Output json(name + ".json");
+    json.write(Json({{"options", to_json(options)}, {"queries", queries}}).dump(2) + "\n");
+    json.close();
+    written.push_back(name + ".csv");
+  }
+  return written;
+}
+
+std::optional<Expectation> read_expectation(const std::string& path) {
+  const std::string name = without_ending(path, ".csv") + ".json";
+  if (!std::filesystem::exists(name)) return std::nullopt;
+  try {
+    std::ifstream in(name);
+    const Json json = Json::parse(in);
+    Expectation e;
+    e.options = to_options(json.at("options"));
+    for (const Json& q : json.at("queries")) {
+      const Json& toi = q.at("toi");  // JSON has no infinity: null
+      e.answers.push_back({q.at("outcome").get<std::string>(), toi.is_null() ? INFINITY : toi.get<double>(),
+                           q.at("checks").get<std::int64_t>()});
+    }
+    return e;
+  } catch (const Json::exception& error) {
+    throw InputError(name + ": " + error.what());
+  }
+}
+
+}  // namespace app

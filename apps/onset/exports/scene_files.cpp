@@ -1,0 +1,68 @@
+#include "onset/exports/scene_files.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "onset/exports/geometry_files.hpp"
+#include "onset/exports/query_dump.hpp"
+
+namespace app {
+namespace {
+
+constexpr std::size_t kDumpedContacts = 64;
+
+void add_worst(std::vector<DumpedPair>& pairs, const onset::Stats& stats) {
+  if (stats.worst.a >= 0) pairs.push_back({stats.worst, "worst"});
+}
+
+}  // namespace
+
+void add_scene_files(CLI::App& command, SceneFiles& files) {
+  command
+      .add_option("--dump", files.dump,
+                  "Write the queries that matter, the limiting or earliest and the worst, to NAME-vf.csv and "
+                  "NAME-ee.csv "
+                  "(exact rationals) with their answers in .json beside them, for onset replay")
+      ->type_name("NAME");
+  command
+      .add_option(
+          "--export", files.geometry,
+          "Write NAME-contacts.ply, NAME-candidates.ply and NAME-swept.ply, coloured by time of impact: red "
+          "first, blue last, grey never (for step: the earliest contacts)")
+      ->type_name("NAME");
+}
+
+void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
+                 const onset::StepResult& result) {
+  if (!files.dump.empty()) {
+    std::vector<DumpedPair> pairs;
+    if (result.limiting.a >= 0) pairs.push_back({result.limiting, "limiting"});
+    add_worst(pairs, result.stats);
+    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, result.stats.tolerance);
+  }
+  if (files.geometry.empty()) return;
+  onset::Options earliest = options;
+  earliest.window = 0;
+  write_geometry(files.geometry, scene, options,
+                 onset::construct_active_set(scene.mesh, scene.x_t0, scene.x_t1, earliest));
+}
+
+void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
+                 const onset::ActiveSet& set) {
+  if (!files.dump.empty()) {
+    std::vector<std::size_t> order(set.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t j) { return set.toi[i] < set.toi[j]; });
+    std::vector<DumpedPair> pairs;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const bool budget = set.status[order[k]] == onset::Outcome::max_checks;
+      if (k < kDumpedContacts || budget) pairs.push_back({set.pair(order[k]), budget ? "budget" : "contact"});
+    }
+    add_worst(pairs, set.stats);
+    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, set.stats.tolerance);
+  }
+  if (!files.geometry.empty()) write_geometry(files.geometry, scene, options, set);
+}
+
+}  // namespace app

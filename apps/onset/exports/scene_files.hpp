@@ -1,0 +1,26 @@
+// What step and active-set leave behind for other programs: dumps of queries, and geometry to look at.
+#pragma once
+
+#include <onset/onset.hpp>
+#include <string>
+
+#include "files/scene/scene.hpp"
+#include "onset/command_line/arguments.hpp"
+
+namespace app {
+
+struct SceneFiles {
+  std::string dump, geometry;  // names, empty for none
+};
+
+// --dump and --export.
+void add_scene_files(CLI::App& command, SceneFiles& files);
+
+// The pairs that matter: a step's limiting and worst pair; of an active set the earliest contacts, those that
+// spent their budget, and the worst pair.
+void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
+                 const onset::StepResult& result);
+void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
+                 const onset::ActiveSet& set);
+
+}  // namespace app

@@ -1,0 +1,177 @@
+#include "onset/results/report.hpp"
+
+#include <cmath>
+
+#include "files/queries/query_kind.hpp"
+
+namespace app {
+
+const char* norm_name(onset::Norm norm) { return norm == onset::Norm::maximum ? "maximum" : "euclidean"; }
+
+Json to_json(const onset::PairCounts& counts) {
+  return {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
+}
+
+Json to_json(const onset::Pair& pair) {
+  if (pair.a < 0) return nullptr;
+  return {{"kind", kind_name(pair.kind)}, {"a", pair.a}, {"b", pair.b}, {"vertices", pair.vertices}};
+}
+
+namespace {
+
+Json kind_json(const onset::PairFilterCounts& p) {
+  return {{"needed", p.may_meet() > 0},
+          {"pairs", p.pairs},
+          {"may_meet", p.may_meet()},
+          {"left_out",
+           {{"masked", p.masked},
+            {"static", p.both_static},
+            {"same_body", p.same_body},
+            {"adjacent", p.adjacent},
+            {"excluded", p.excluded}}}};
+}
+
+Json primitive_json(const onset::PrimitiveFilterCounts& p) {
+  return {{"moving", p.moving}, {"static", p.statics}, {"dropped", p.dropped}};
+}
+
+}  // namespace
+
+Json to_json(const onset::FilterCounts& p) {
+  return {{"vf", kind_json(p.vertex_face)},
+          {"ee", kind_json(p.edge_edge)},
+          {"vertices", primitive_json(p.vertices)},
+          {"edges", primitive_json(p.edges)},
+          {"faces", primitive_json(p.faces)}};
+}
+
+Json to_json(const onset::Stats& s) {
+  return {{"swept", to_json(s.swept)},
+          {"candidates", to_json(s.candidates)},
+          {"contacts", to_json(s.contacts)},
+          {"after_culls", to_json(s.after_culls)},
+          {"inclusion", to_json(s.inclusion)},
+          {"budget", to_json(s.gave_up)},
+          {"checks", s.checks},
+          {"max_checks_of_a_pair", s.max_checks_of_a_pair},
+          {"checks_histogram", s.checks_histogram},
+          {"worst", to_json(s.worst)},
+          {"looked_at", s.looked_at},
+          {"seconds_contacts", s.seconds_contacts},
+          {"achieved_tolerance", s.achieved_tolerance},
+          {"extent", s.extent},
+          {"error_bound", s.error_bound},
+          {"plan", to_json(s.filter_counts)},
+          {"made_fixed_boxes", s.made_static_boxes},
+          {"threads", s.threads},
+          {"kernel", s.instruction_set},
+          {"broad_phase", s.broad_phase}};
+}
+
+Json seconds_json(const onset::Stats& s) {
+  return {{"broad", s.seconds_broad}, {"narrow", s.seconds_narrow}, {"total", s.seconds_total}};
+}
+
+Json spread_json(const Spread& s) { return {{"median", s.median}, {"min", s.least}, {"max", s.most}}; }
+
+Json time_json(double time) { return std::isfinite(time) ? Json(time) : Json(); }
+
+// toi_hi is null where no contact is certain by any time.
+static void add_certainty(Json& json, onset::Certainty certainty, double toi_hi) {
+  json["certainty"] = onset::to_string(certainty);
+  json["toi_hi"] = time_json(toi_hi);
+}
+
+Json step_json(const onset::StepResult& r) {
+  Json json = {{"outcome", onset::to_string(r.outcome)}, {"step", r.step},
+               {"limiting", to_json(r.limiting)},        {"candidates", to_json(r.stats.candidates)},
+               {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance},
+               {"toi", time_json(r.toi)},                {"rounding", r.rounding},
+               {"shortest", r.shortest}};
+  if (r.limiting.a >= 0) add_certainty(json["limiting"], r.certainty, r.toi_hi);
+  if (r.vertex >= 0) json["vertex"] = r.vertex;
+  json["stats"] = to_json(r.stats);
+  return json;
+}
+
+Json active_set_json(const onset::ActiveSet& set) {
+  const std::ptrdiff_t first = set.earliest();
+  Json pair = nullptr;
+  if (first >= 0) {
+    pair = to_json(set.pair(std::size_t(first)));
+    pair["toi"] = set.toi[std::size_t(first)];
+    pair["status"] = onset::to_string(set.status[std::size_t(first)]);
+    add_certainty(pair, set.certainty[std::size_t(first)], set.toi_hi[std::size_t(first)]);
+  }
+  Json json = {{"contacts", to_json(set.stats.contacts)},
+               {"earliest", first < 0 ? Json() : Json(set.toi[std::size_t(first)])},
+               {"candidates", to_json(set.stats.candidates)},
+               {"seconds", seconds_json(set.stats)},
+               {"earliest_pair", pair},
+               {"outcome", onset::to_string(set.outcome)},
+               {"tolerance", set.stats.tolerance}};
+  if (set.vertex >= 0) json["vertex"] = set.vertex;
+  json["complete_until"] = std::isinf(set.complete_until) ? Json() : Json(set.complete_until);
+  json["stats"] = to_json(set.stats);
+  return json;
+}
+
+void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
+  csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit\n");
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const auto& v = set.vertices[i];
+    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(set.kind[i]), set.a[i], set.b[i], set.toi[i],
+                     v[0], v[1], v[2], v[3], onset::to_string(set.status[i]), onset::to_string(set.certainty[i]),
+                     set.toi_hi[i]));
+    const auto& w = set.weight[i];
+    const auto& n = set.normal[i];
+    for (const double x : {w[0], w[1], w[2], w[3], n[0], n[1], n[2], set.gap[i], set.speed[i]})
+      csv.write(format(",%.17g", x));
+    csv.write(format(",%d,%.17g\n", int(set.degenerate[i]), set.step_limit[i]));
+  }
+}
+
+// A point is an edge whose two vertices are the same.
+std::string describe_edge(int edge, int v, int w) {
+  return v == w ? format("point %d (edge %d)", v, edge) : format("edge %d (vertices %d %d)", edge, v, w);
+}
+
+std::string describe(const onset::Pair& pair) {
+  if (pair.a < 0) return "none";
+  const auto& v = pair.vertices;
+  if (pair.kind == onset::PairKind::vertex_face)
+    return format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3]);
+  return describe_edge(pair.a, v[0], v[1]) + " and " + describe_edge(pair.b, v[2], v[3]);
+}
+
+std::string describe(const onset::PairCounts& c) {
+  return format("%lld vertex-face, %lld edge-edge", static_cast<long long>(c.vertex_face),
+                static_cast<long long>(c.edge_edge));
+}
+
+std::string describe_step(const onset::StepResult& r) {
+  std::string text = format("outcome     %s\nstep        %.17g\nlimited by  %s\n",
+                            onset::to_string(r.outcome), r.step, describe(r.limiting).c_str());
+  if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
+  text += std::isfinite(r.toi) ? format("touches     t = %.17g, on the exact motion\n", r.toi) : "touches     never\n";
+  return text + format("rounding    %.3g, what storing the end of the step may change\n", r.rounding);
+}
+
+std::string describe_sizes(std::ptrdiff_t vertices, std::ptrdiff_t edges, std::ptrdiff_t faces) {
+  return format("mesh        %td vertices, %td edges, %td faces\n", vertices, edges, faces);
+}
+
+std::string describe_sizes(const onset::Mesh& mesh) {
+  const std::ptrdiff_t points = mesh.num_points();
+  std::string text = describe_sizes(mesh.num_vertices(), mesh.num_edges() - points, mesh.num_faces());
+  if (points > 0) text.insert(text.size() - 1, format(", %td points (edges of length 0 behind all others)", points));
+  return text;
+}
+
+std::string describe_stats(const onset::Stats& s) {
+  return format("candidates  %s\ntolerance   %.3g\nseconds     %.3g (broad %.3g, narrow %.3g)\n",
+                describe(s.candidates).c_str(), s.tolerance, s.seconds_total, s.seconds_broad,
+                s.seconds_narrow);
+}
+
+}  // namespace app

@@ -1,0 +1,37 @@
+// The pieces that the subcommands' results share, as JSON, CSV and words.
+#pragma once
+
+#include <onset/mesh.hpp>
+#include <onset/options.hpp>
+#include <onset/result.hpp>
+#include <string>
+
+#include "measure/timing.hpp"
+#include "onset/results/outputs.hpp"
+
+namespace app {
+
+const char* norm_name(onset::Norm norm);        // "euclidean" or "maximum"
+Json to_json(const onset::PairCounts& counts);  // {vf, ee}
+Json to_json(const onset::Pair& pair);          // {kind, a, b, vertices}, null for no pair
+Json to_json(const onset::FilterCounts& plan);
+Json to_json(const onset::Stats& stats);
+Json seconds_json(const onset::Stats& stats);  // {broad, narrow, total}
+Json spread_json(const Spread& spread);        // {median, min, max}
+Json time_json(double time);  // null for never
+Json step_json(const onset::StepResult& result);
+Json active_set_json(const onset::ActiveSet& set);
+
+// kind,a,b,toi,v0,v1,v2,v3,status, then the contact's weights, normal, gap, speed and whether it is
+// degenerate, and how far the pair lets a step go
+void write_active_set_csv(Output& csv, const onset::ActiveSet& set);
+
+std::string describe(const onset::Pair& pair);  // "vertex 3 and face 7 (vertices 3; 1 2 9)"
+std::string describe_edge(int edge, int v, int w);  // "edge 4 (vertices 1 2)", or "point 1 (edge 4)"
+std::string describe(const onset::PairCounts& counts);
+std::string describe_step(const onset::StepResult& result);
+std::string describe_sizes(std::ptrdiff_t vertices, std::ptrdiff_t edges, std::ptrdiff_t faces);
+std::string describe_sizes(const onset::Mesh& mesh);
+std::string describe_stats(const onset::Stats& stats);  // candidates, tolerance, seconds
+
+}  // namespace app
