@@ -9,7 +9,7 @@
 #include "onset/options.hpp"
 #include "scene/mesh_data.hpp"
 #include "scene/motion.hpp"
-#include "scene/pair_sink.hpp"
+#include "scene/pair_source.hpp"
 #include "scene/primitive.hpp"
 
 namespace onset {

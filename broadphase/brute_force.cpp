@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "broadphase/motion_box.hpp"
-#include "scene/pair_sink.hpp"
+#include "scene/pair_source.hpp"
 
 namespace onset {
 

@@ -6,7 +6,7 @@
 #include "base/parallel.hpp"
 #include "broadphase/bvh/float_boxes.hpp"
 #include "broadphase/cell_grid.hpp"
-#include "scene/pair_sink.hpp"
+#include "scene/pair_source.hpp"
 
 namespace onset {
 

@@ -57,7 +57,7 @@ void NarrowPhase::sharpen(PairKind kind, PairResult& result) const {
   if (!decides_completely(c)) return;
   const auto time = exact_first_contact(exact_pair_of(c));
   if (!time) return;
-  if (result.outcome == Outcome::contact) result.toi = result.step_limit = time->lo;
+  if (result.outcome == PairOutcome::contact) result.toi = result.step_limit = time->lo;
   result.toi_hi = time->hi;
 }
 

@@ -9,6 +9,7 @@
 #include "narrowphase/interval_certificate.hpp"
 #include "narrowphase/kernel/kernels.hpp"
 #include "narrowphase/pair_decision.hpp"
+#include "scene/pair_source.hpp"
 
 namespace onset {
 namespace {
@@ -21,23 +22,7 @@ double power_of_two_near_one_over(double x) {
   return x > 0x1p-1000 ? std::ldexp(1.0, -std::ilogb(x)) : 0x1p1000;
 }
 
-void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) {
-  if (kind == PairKind::vertex_face) {
-    const auto& f = mesh.faces[std::size_t(p.b)];
-    v[0] = p.a, v[1] = f[0], v[2] = f[1], v[3] = f[2];
-  } else {
-    std::copy_n(mesh.edges[std::size_t(p.a)].data(), 2, v);
-    std::copy_n(mesh.edges[std::size_t(p.b)].data(), 2, v + 2);
-  }
-}
-
 }  // namespace
-
-std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair p) {
-  std::array<int, 4> v;
-  put_vertices(mesh, kind, p, v.data());
-  return v;
-}
 
 void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
   candidates += o.candidates, after_culls += o.after_culls, inclusion += o.inclusion;
@@ -62,7 +47,7 @@ void NarrowPhaseStats::note_checks(IdPair pair, std::int64_t n) {
 }
 
 void NarrowPhaseStats::note_outcome(const PairResult& r) {
-  gave_up += r.outcome == Outcome::max_checks;
+  gave_up += r.outcome == PairOutcome::max_checks;
   achieved_tolerance = std::max(achieved_tolerance, r.tolerance);
 }
 
@@ -268,7 +253,7 @@ KernelResult NarrowPhase::carry_on(const Case& c, const KernelResult& checked, N
 void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
                          std::vector<PairResult>& out) const {
   KernelResult found = checked;
-  PairResult r{c.pair, 0, 0, 0, Outcome::contact};
+  PairResult r{c.pair, 0, 0, 0, PairOutcome::contact};
   const double d = found.separation;
   Corners corners;
   Bounds start{};
@@ -306,7 +291,7 @@ void NarrowPhase::finish(const Case& c, const KernelResult& checked, double from
   if (later)
     found.distance = std::min(
         found.distance, 2 * corners_of(c).rho * (exact.time.hi - exact.time.lo) * (1 + 0x1p-40) + 0x1p-1074);
-  if (found.verdict == Verdict::max_checks && !real) r.outcome = Outcome::max_checks;
+  if (found.verdict == Verdict::max_checks && !real) r.outcome = PairOutcome::max_checks;
   r.toi = r.step_limit = found.t;
   if (real || seen_within_separation(c, found)) r.certainty = r.limit_certainty = Certainty::certain;
   if (real && from == 0) r.toi_hi = exact.time.hi;
@@ -321,7 +306,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Bo
                                  std::vector<PairResult>& out) const {
   const double d = found.separation;
   PairResult r{c.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
-               Outcome::initial_contact};
+               PairOutcome::initial_contact};
   const bool touching =
       exact.answer == Answer::yes ? exact.time.hi == 0 : start.lower <= 0 && touches_at_start(c);
   if (touching || start.upper <= d)
@@ -332,7 +317,7 @@ void NarrowPhase::finish_initial(const Case& c, const Corners& corners, const Bo
   if (exact.answer == Answer::yes) r.toi_hi = exact.time.hi;
   Parting parting;
   if (!touching || in_.options.touching_may_pass_through) parting = find_parting_of(c, corners, start, d, touching);
-  if (parting.t > 0) r.outcome = Outcome::initial_separating;
+  if (parting.t > 0) r.outcome = PairOutcome::initial_separating;
   r.step_limit = parting.t == 1 ? INFINITY : parting.t;
   if (parting.t == 0) r.limit_certainty = r.certainty;
   if (parting.apart && parting.t < 1) {

@@ -47,7 +47,7 @@ struct PairResult {
   double step_limit;  // how far this pair lets the exact motion go: toi; for initial_separating the next contact,
                       // infinite if none
   double tolerance;   // distance beyond the separation at which it was reported, model length
-  Outcome outcome;
+  PairOutcome outcome;
   Certainty certainty = Certainty::within_tolerance;
   double toi_hi = INFINITY;                                 // where certain: touches by then
   Certainty limit_certainty = Certainty::within_tolerance;  // of the contact at step_limit
@@ -175,7 +175,5 @@ class NarrowPhase {
   double scale_;
   AlignedArray<float> rounded_;  // for_many: the motion in single precision
 };
-
-std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair pair);
 
 }  // namespace onset

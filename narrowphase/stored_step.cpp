@@ -75,9 +75,9 @@ void NarrowPhase::finish_stored(const Case& c, const KernelResult& checked, Narr
   if (free && limit.from == 0 && contact.empty()) return;
   // A share that would be lost is a contact with what is kept.
   const bool spent = found.verdict == Verdict::max_checks && found.t > 0 && found.checks >= c.input.max_checks;
-  const Outcome outcome = spent                            ? Outcome::max_checks
-                          : in_.gap_share > 0 && found.t > 0 ? Outcome::contact
-                                                        : Outcome::below_rounding;
+  const PairOutcome outcome = spent                            ? PairOutcome::max_checks
+                          : in_.gap_share > 0 && found.t > 0 ? PairOutcome::contact
+                                                        : PairOutcome::below_rounding;
   PairResult r{c.pair, INFINITY, INFINITY, 0, outcome};
   if (!contact.empty())
     r = contact[0];
@@ -118,15 +118,15 @@ NarrowPhase::StoredLimit NarrowPhase::limit_from_start(const Case& c, const Case
     return limit;
   }
   decide(exact, stats, contact);
-  const Outcome outcome = contact.empty() ? Outcome::free : contact[0].outcome;
+  const PairOutcome outcome = contact.empty() ? PairOutcome::free : contact[0].outcome;
   KernelResult blocked{};
   blocked.unit = corners.unit, blocked.verdict = Verdict::max_checks;
-  if (outcome == Outcome::initial_contact) return {0, blocked};
+  if (outcome == PairOutcome::initial_contact) return {0, blocked};
   if (rests(exact_pair_of(c))) {  // nothing is rounded
     blocked.verdict = Verdict::free;
     return {0, blocked};
   }
-  if (outcome == Outcome::initial_separating) return limit_after_parting(c, corners, start, stats);
+  if (outcome == PairOutcome::initial_separating) return limit_after_parting(c, corners, start, stats);
   return limit_of_small_gap(c, corners, contact, stats);
 }
 

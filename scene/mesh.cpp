@@ -1,16 +1,14 @@
 #include "onset/mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "base/buffer_pool.hpp"
-#include "onset/intersections.hpp"
 #include "scene/edges_of_faces.hpp"
-#include "scene/named_pairs.hpp"
+#include "scene/rules.hpp"
 #include "scene/primitive.hpp"
 #include "scene/primitive_filter.hpp"
 #include "scene/static_cache.hpp"
@@ -18,9 +16,6 @@
 namespace onset {
 namespace {
 
-[[noreturn]] void reject(const char* what, std::ptrdiff_t row, const std::string& why) {
-  throw std::invalid_argument(std::string(what) + " row " + std::to_string(row) + ": " + why);
-}
 
 template <std::size_t N>
 std::vector<std::array<int, N>> checked(const char* what, const Indices& ids, std::ptrdiff_t vertices) {
@@ -32,10 +27,10 @@ std::vector<std::array<int, N>> checked(const char* what, const Indices& ids, st
     for (std::size_t c = 0; c < N; ++c) {
       const long long v = ids(r, c);
       if (v < 0 || v >= vertices)
-        reject(what, r,
+        reject_row(what, r,
                "vertex " + std::to_string(v) + " is out of range, there are " + std::to_string(vertices));
       for (std::size_t k = 0; k < c; ++k)
-        if (result[r][k] == v) reject(what, r, "vertex " + std::to_string(v) + " is repeated");
+        if (result[r][k] == v) reject_row(what, r, "vertex " + std::to_string(v) + " is repeated");
       result[r][c] = int(v);
     }
   return result;
@@ -47,34 +42,55 @@ std::ptrdiff_t checked_count(std::ptrdiff_t vertices) {
   return vertices;
 }
 
-MeshData make_data(std::ptrdiff_t vertices, std::vector<std::array<int, 2>> edges,
-                   std::vector<std::array<int, 3>> faces) {
-  MeshData data;
-  data.num_vertices = int(vertices);
-  data.edges = std::move(edges);
-  data.faces = std::move(faces);
-  data.num_full_vertices = data.num_vertices;
-  finish_mesh(data);
+std::shared_ptr<MeshData> make_data(std::ptrdiff_t vertices, std::vector<std::array<int, 2>> edges,
+                                    std::vector<std::array<int, 3>> faces, const CollisionRules& rules) {
+  auto data = std::make_shared<MeshData>();
+  data->num_vertices = data->num_full_vertices = int(vertices);
+  data->edges = std::move(edges);
+  data->faces = std::move(faces);
+  apply_rules(rules, *data);
+  data->rules = std::make_shared<const CollisionRules>(rules);
+  finish_mesh(*data);
   return data;
 }
 
 }  // namespace
 
-Mesh::Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces) {
+Mesh::Mesh() : data_(make_data(0, {}, {}, {})) {}
+
+Mesh::Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces, const CollisionRules& rules) {
   auto E = checked<2>("edge", edges, checked_count(vertices));
   auto F = checked<3>("face", faces, vertices);
   require_edges_of_faces(E, F);
-  data_ = std::make_shared<MeshData>(make_data(vertices, std::move(E), std::move(F)));
+  data_ = make_data(vertices, std::move(E), std::move(F), rules);
 }
 
-Mesh::Mesh(std::ptrdiff_t vertices, const Indices& faces) {
+Mesh::Mesh(std::ptrdiff_t vertices, const Indices& faces, const CollisionRules& rules) {
   auto F = checked<3>("face", faces, checked_count(vertices));
-  data_ = std::make_shared<MeshData>(make_data(vertices, edge_list(faces), std::move(F)));
+  data_ = make_data(vertices, edge_list(faces), std::move(F), rules);
 }
 
-Mesh::Mesh(const Positions& rest, const Indices& edges, const Indices& faces)
-    : Mesh(rest.rows(), edges, faces) {}
-Mesh::Mesh(const Positions& rest, const Indices& faces) : Mesh(rest.rows(), faces) {}
+Mesh::Mesh(const Positions& rest, const Indices& edges, const Indices& faces, const CollisionRules& rules)
+    : Mesh(rest.rows(), edges, faces, rules) {}
+Mesh::Mesh(const Positions& rest, const Indices& faces, const CollisionRules& rules)
+    : Mesh(rest.rows(), faces, rules) {}
+
+// All or nothing: data_ changes when f and what follows from it are done.
+template <class F>
+void Mesh::change(F&& f) {
+  auto changed = std::make_shared<MeshData>(*data_);
+  f(*changed);
+  finish_mesh(*changed);
+  data_ = std::move(changed);
+}
+
+void Mesh::set_rules(const CollisionRules& rules) {
+  change([&](MeshData& data) {
+    apply_rules(rules, data);
+    data.rules = std::make_shared<const CollisionRules>(rules);
+  });
+}
+const CollisionRules& Mesh::rules() const { return *data_->rules; }
 
 std::ptrdiff_t Mesh::num_vertices() const { return data_->num_vertices; }
 std::ptrdiff_t Mesh::num_edges() const { return std::ptrdiff_t(data_->edges.size()); }
@@ -151,174 +167,18 @@ std::vector<int> Mesh::components() const {
   return body;
 }
 
-// All or nothing: data_ changes when f and what follows from it are done.
-template <class F>
-void Mesh::change(F&& f) {
-  auto changed = std::make_shared<MeshData>(*data_);
-  f(*changed);
-  finish_mesh(*changed);
-  data_ = std::move(changed);
-}
-
-namespace {
-
-void check_size(const char* what, std::size_t size, std::ptrdiff_t wanted, const char* of) {
-  if (std::ptrdiff_t(size) != wanted)
-    throw std::invalid_argument(std::string(what) + " has " + std::to_string(size) + " values for " +
-                                std::to_string(wanted) + " " + of);
-}
-
-std::vector<std::array<int, 2>> checked_pairs(const char* what, std::vector<std::array<int, 2>> pairs,
-                                              std::ptrdiff_t count) {
-  for (std::size_t r = 0; r < pairs.size(); ++r) {
-    auto& [a, b] = pairs[r];
-    for (const int i : {a, b})
-      if (i < 0 || i >= count)
-        reject(what, std::ptrdiff_t(r),
-               "id " + std::to_string(i) + " is out of range, there are " + std::to_string(count));
-    if (a == b) reject(what, std::ptrdiff_t(r), "id " + std::to_string(a) + " is repeated");
-    if (a > b) std::swap(a, b);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
-}
-
-template <std::size_t N>
-void check_one_body(const char* what, const std::vector<std::array<int, N>>& elements,
-                    const std::vector<int>& body) {
-  for (std::size_t r = 0; r < elements.size(); ++r)
-    for (const int v : elements[r])
-      if (const int first = elements[r][0]; body[std::size_t(v)] != body[std::size_t(first)])
-        reject(what, std::ptrdiff_t(r),
-               "vertex " + std::to_string(first) + " is in body " + std::to_string(body[std::size_t(first)]) +
-                   ", vertex " + std::to_string(v) + " in body " + std::to_string(body[std::size_t(v)]));
-}
-
-}  // namespace
-
-void Mesh::set_points(const std::vector<int>& ids) {
-  const std::size_t edges = data_->edges.size() - std::size_t(data_->num_points);
-  enum : char { none, element, point };
-  std::vector<char> part(std::size_t(num_vertices()), none);
-  for (std::size_t e = 0; e < edges; ++e)
-    for (const int v : data_->edges[e]) part[std::size_t(v)] = element;
-  for (const auto& f : data_->faces)
-    for (const int v : f) part[std::size_t(v)] = element;
-  for (std::size_t r = 0; r < ids.size(); ++r) {
-    const auto bad = [&](const std::string& why) {
-      reject("point", std::ptrdiff_t(r), "vertex " + std::to_string(ids[r]) + why);
-    };
-    if (ids[r] < 0 || ids[r] >= num_vertices())
-      bad(" is out of range, there are " + std::to_string(num_vertices()));
-    char& used = part[std::size_t(ids[r])];
-    if (used == element) bad(" belongs to an edge or a face");
-    if (used == point) bad(" is repeated");
-    used = point;
-  }
-  change([&](MeshData& data) {
-    data.edges.resize(edges);
-    for (const int v : ids) data.edges.push_back({v, v});
-    data.num_points = int(ids.size());
-    for (const PairKind kind : {PairKind::edge_edge, kEdgeFace}) {
-      auto& pairs = data.excluded_pairs[std::size_t(kind)];
-      const auto of_points = [&](const std::array<int, 2>& p) {
-        return std::size_t(kind == kEdgeFace ? p[0] : p[1]) >= edges;  // a < b
-      };
-      pairs.erase(std::remove_if(pairs.begin(), pairs.end(), of_points), pairs.end());
-    }
-  });
-}
-
-void Mesh::set_bodies(const std::vector<int>& body) {
-  check_size("body", body.size(), num_vertices(), "vertices");
-  for (std::size_t v = 0; v < body.size(); ++v)
-    if (body[v] < 0 || body[v] == std::numeric_limits<int>::max())
-      reject("body", std::ptrdiff_t(v), "id " + std::to_string(body[v]) + " is not in [0, 2^31 - 1)");
-  check_one_body("edge", data_->edges, body);
-  check_one_body("face", data_->faces, body);
-  change([&](MeshData& data) {
-    data.body = body;
-    data.rigid = data.no_self = {};
-    data.excluded_bodies = {};
-  });
-}
-
-void Mesh::set_static(const std::vector<bool>& vertices) {
-  check_size("static", vertices.size(), num_vertices(), "vertices");
-  change([&](MeshData& data) { data.is_static = vertices; });
-}
-
-void Mesh::set_rigid(const std::vector<bool>& bodies) {
-  check_size("rigid", bodies.size(), num_bodies(), "bodies");
-  change([&](MeshData& data) { data.rigid = bodies; });
-}
-
-void Mesh::set_self_collision(const std::vector<bool>& bodies) {
-  check_size("self-collision", bodies.size(), num_bodies(), "bodies");
-  change([&](MeshData& data) {
-    data.no_self = bodies;
-    data.no_self.flip();
-  });
-}
-
-void Mesh::set_groups(const std::vector<std::uint32_t>& groups, const std::vector<std::uint32_t>& masks) {
-  check_size("groups", groups.size(), num_vertices(), "vertices");
-  check_size("masks", masks.size(), num_vertices(), "vertices");
-  change([&](MeshData& data) { data.group = groups, data.mask = masks; });
-}
-
-void Mesh::set_excluded_bodies(const std::vector<std::array<int, 2>>& pairs) {
-  auto checked = checked_pairs("excluded bodies", pairs, num_bodies());
-  change([&](MeshData& data) { data.excluded_bodies = std::move(checked); });
-}
-
-void Mesh::set_excluded_vertices(const std::vector<std::array<int, 2>>& pairs) {
-  auto checked = checked_pairs("excluded vertices", pairs, num_vertices());
-  change([&](MeshData& data) { data.excluded_vertices = std::move(checked); });
-}
-
-void Mesh::set_excluded_pairs(const std::vector<Pair>& pairs) {
-  const std::vector<PairKind> kinds{PairKind::vertex_face, PairKind::edge_edge};
-  NamedPairs named("excluded pairs", *data_, kinds);
-  for (const Pair& p : pairs) named.add(p.kind, p.a, p.b);
-  change([&](MeshData& data) {
-    for (const PairKind kind : kinds) data.excluded_pairs[std::size_t(kind)] = named.of(kind);
-  });
-}
-
-void Mesh::set_excluded_intersections(const std::vector<Intersection>& pairs) {
-  NamedPairs named("excluded intersections", *data_, {kEdgeFace});
-  for (const Intersection& p : pairs) named.add(kEdgeFace, p.edge, p.face);
-  change([&](MeshData& data) { data.excluded_pairs[std::size_t(kEdgeFace)] = named.of(kEdgeFace); });
-}
-
-void Mesh::set_weld(bool on) {
-  change([&](MeshData& data) { data.weld = on; });
-}
-
 void Mesh::set_full_vertices(const std::vector<int>& ids, std::ptrdiff_t full_vertices) {
   check_size("full vertices", ids.size(), num_vertices(), "vertices");
   std::vector<bool> taken(std::size_t(checked_count(full_vertices)));
   for (std::size_t v = 0; v < ids.size(); ++v) {
     if (ids[v] < 0 || ids[v] >= full_vertices)
-      reject("full vertices", std::ptrdiff_t(v),
+      reject_row("full vertices", std::ptrdiff_t(v),
              "id " + std::to_string(ids[v]) + " is out of range, there are " + std::to_string(full_vertices));
     if (taken[std::size_t(ids[v])])
-      reject("full vertices", std::ptrdiff_t(v), "id " + std::to_string(ids[v]) + " is repeated");
+      reject_row("full vertices", std::ptrdiff_t(v), "id " + std::to_string(ids[v]) + " is repeated");
     taken[std::size_t(ids[v])] = true;
   }
   change([&](MeshData& data) { data.full_vertex = ids, data.num_full_vertices = int(full_vertices); });
-}
-
-void Mesh::set_thickness(const std::vector<double>& thickness) {
-  check_size("thickness", thickness.size(), num_vertices(), "vertices");
-  for (std::size_t v = 0; v < thickness.size(); ++v)
-    if (!(thickness[v] >= 0) || !std::isfinite(thickness[v]))
-      reject("thickness", std::ptrdiff_t(v), std::to_string(thickness[v]) + " is not a finite number >= 0");
-  // All zero is none.
-  const bool any = std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0; });
-  change([&](MeshData& data) { data.thickness = any ? thickness : std::vector<double>(); });
 }
 
 }  // namespace onset

@@ -9,6 +9,7 @@
 
 namespace onset {
 
+struct CollisionRules;    // onset/collision_rules.hpp
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
 class StaticCache;        // scene/static_cache.hpp
 class BufferPool;            // base/buffer_pool.hpp
@@ -27,6 +28,8 @@ struct MeshData {
   std::vector<std::uint32_t> group, mask;                              // a vertex
   std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;  // smaller id first, sorted, each once
   std::array<std::vector<std::array<int, 2>>, 3> excluded_pairs;  // of a kind; ids as in IdPair, the same
+
+  std::shared_ptr<const CollisionRules> rules;  // as they were given; null: of a single query
 
   std::vector<int> full_vertex;  // a vertex: its id in the full mesh; empty: its own
   int num_full_vertices = 0;

@@ -2,9 +2,9 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "onset/pipeline.hpp"
-#include "src/contact_rows.hpp"
+#include "onset/active_set.hpp"
 #include "src/shared/checked_options.hpp"
+#include "src/shared/contacts.hpp"
 #include "src/shared/find_contacts.hpp"
 
 namespace onset {
@@ -49,7 +49,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);
     if (budget.outcome() != Outcome::free) set.stats.looked_at = budget.done();
-    fill_rows(mesh, scene.motion, options.instruction_set, traversal.found, set);
+    fill_contacts(mesh, scene.motion, options.instruction_set, traversal.found, set);
     if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
     set.stats.seconds_total = scene.clock.seconds();
     set.stats.seconds_contacts = set.stats.seconds_total - begun;

@@ -1,61 +1,83 @@
+#include "onset/candidates.hpp"
+
 #include <algorithm>
 #include <atomic>
-#include <mutex>
 
-#include "base/parallel.hpp"
-#include "narrowphase/narrow_phase.hpp"
-#include "onset/pipeline.hpp"
+#include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/step_setup.hpp"
+#include "src/shared/visit_pairs.hpp"
 
 namespace onset {
 namespace {
 
-// Nothing is listed any more once `room` (pairs) is used up. `welds`: where it is not null, seams of it are left out.
-void list_candidates(const Mesh& mesh, const BroadPhase& broad, PairKind kind, bool list, const Motion* welds,
-                     std::atomic<std::int64_t>& room, Budget& budget, std::vector<std::array<int, 2>>& pairs,
-                     std::int64_t& count) {
-  std::mutex mutex;
+using Ids = std::vector<std::array<int, 2>>;
+
+// What is done with the candidates of a step besides counting them.
+struct Use {
+  const CandidateVisitor* visitor = nullptr;
+  bool list = false;
+};
+
+// Takes the candidates of one scene.
+class CandidateList {
+ public:
+  CandidateList(const MeshData& mesh, const Scene& scene, const Use& use, const Options& options, Budget& budget,
+                Candidates& result)
+      : mesh_(mesh),
+        scene_(scene),
+        use_(use),
+        budget_(budget),
+        result_(result),
+        room_(use.list ? options.memory_limit / std::int64_t(sizeof(IdPair)) : 0) {}
+
+  void take(PairKind kind) {
+    Ids& listed = kind == PairKind::vertex_face ? result_.vertex_face : result_.edge_edge;
+    std::int64_t& count = kind == PairKind::vertex_face ? result_.counts.vertex_face : result_.counts.edge_edge;
+    const auto visit = [&](Task& task, const IdPair* pairs, std::size_t n) { take(kind, pairs, n, task); };
+    const auto merge = [&](Task& task, std::size_t blocks) {
+      if (!budget_.spent()) budget_.advance(blocks);
+      count += task.count;
+      listed.insert(listed.end(), task.listed.begin(), task.listed.end());
+    };
+    visit_pairs(*scene_.broad, kind, kBlocksATask, Task{}, visit, merge, [&] { return budget_.spent(); });
+    parallel_sort(listed.begin(), listed.end(), [](const auto& p, const auto& q) { return p < q; });
+  }
+  // Nothing is listed any more then.
+  bool too_many() const { return room_ < 0; }
+
+ private:
+  static constexpr std::size_t kBlocksATask = 64;
   struct Task {
-    const MeshData& mesh;
-    PairKind kind;
-    bool list;
-    const Motion* welds;
-    std::atomic<std::int64_t>& room;
-    Budget& budget;
-    std::int64_t count;
-    std::vector<std::array<int, 2>> pairs;
-    static void consume(void* context, const IdPair* p, std::size_t n) {
-      auto& task = *static_cast<Task*>(context);
-      if (task.budget.spent()) return;
-      if (task.welds != nullptr) return task.consume_unwelded(p, n);
-      task.count += std::int64_t(n);
-      if (task.list && (task.room -= std::int64_t(n)) >= 0)
-        for (std::size_t i = 0; i < n; ++i) task.pairs.push_back({p[i].a, p[i].b});
-    }
-    void consume_unwelded(const IdPair* p, std::size_t n) {
-      for (std::size_t i = 0; i < n; ++i) {
-        if (is_seam(*welds, kind, pair_vertices(mesh, kind, p[i]))) continue;
-        ++count;
-        if (list && --room >= 0) pairs.push_back({p[i].a, p[i].b});
-      }
-    }
+    std::int64_t count = 0;
+    Ids listed, visited;
   };
-  parallel_ranges(broad.blocks(kind), 64, [&](std::size_t first, std::size_t last) {
-    Task task{mesh.data(), kind, list, welds, room, budget, 0, {}};
-    if (!budget.spent()) broad.traverse(kind, first, last, {&task, &Task::consume});
-    if (!budget.spent()) budget.advance(last - first);
-    const std::lock_guard<std::mutex> lock(mutex);
-    count += task.count;
-    pairs.insert(pairs.end(), task.pairs.begin(), task.pairs.end());
-  });
-  parallel_sort(pairs.begin(), pairs.end(), [](const auto& p, const auto& q) { return p < q; });
-}
 
-}  // namespace
+  void take(PairKind kind, const IdPair* pairs, std::size_t n, Task& task) {
+    Ids& out = use_.list ? task.listed : task.visited;
+    const std::size_t before = out.size();
+    const bool lists = use_.list ? room_ >= 0 : use_.visitor != nullptr;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (mesh_.weld && is_seam(scene_.motion, kind, pair_vertices(mesh_, kind, pairs[i]))) continue;
+      ++task.count;
+      if (lists) out.push_back({pairs[i].a, pairs[i].b});
+    }
+    if (use_.list && (room_ -= std::int64_t(out.size() - before)) < 0) out.clear();
+    if (use_.visitor == nullptr) return;
+    (*use_.visitor)(kind, out.data(), out.size());
+    out.clear();
+  }
 
-Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                              const Options& options, bool list) {
+  const MeshData& mesh_;
+  const Scene& scene_;
+  const Use use_;
+  Budget& budget_;
+  Candidates& result_;
+  std::atomic<std::int64_t> room_;
+};
+
+Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
+                      const Use& use) {
   check(options);
   Candidates c;
   in_arena(options.threads, [&] {
@@ -64,24 +86,35 @@ Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Pos
     c.outcome = scene.motion.status;
     c.vertex = scene.motion.bad_vertex;
     if (c.outcome != Outcome::free) return;
-    std::atomic<std::int64_t> room{options.memory_limit / std::int64_t(sizeof(IdPair))};
+    CandidateList list(mesh.data(), scene, use, options, budget, c);
     if (scene.broad) {
       budget.begin_traversal(scene.broad->blocks(PairKind::vertex_face) +
-                        scene.broad->blocks(PairKind::edge_edge));
-      const Motion* welds = mesh.data().weld ? &scene.motion : nullptr;
-      list_candidates(mesh, *scene.broad, PairKind::vertex_face, list, welds, room, budget, c.vertex_face,
-                      c.counts.vertex_face);
-      list_candidates(mesh, *scene.broad, PairKind::edge_edge, list, welds, room, budget, c.edge_edge,
-                      c.counts.edge_edge);
+                             scene.broad->blocks(PairKind::edge_edge));
+      list.take(PairKind::vertex_face);
+      list.take(PairKind::edge_edge);
     }
-    c.outcome = room < 0 ? Outcome::out_of_memory : budget.outcome();
+    c.outcome = list.too_many() ? Outcome::out_of_memory : budget.outcome();
     if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = {};
     if (budget.outcome() != Outcome::free) c.stats.looked_at = budget.done();
     c.stats.swept = c.counts;
-    c.stats.seconds_total = scene.clock.seconds();
-    c.stats.seconds_broad = c.stats.seconds_total;
+    c.stats.seconds_broad = c.stats.seconds_total = scene.clock.seconds();
   });
   return c;
+}
+
+}  // namespace
+
+Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                              const Options& options) {
+  return candidates(mesh, x_t0, x_t1, options, {nullptr, true});
+}
+Candidates count_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                            const Options& options) {
+  return candidates(mesh, x_t0, x_t1, options, {});
+}
+Candidates visit_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                            const CandidateVisitor& visit, const Options& options) {
+  return candidates(mesh, x_t0, x_t1, options, {&visit, false});
 }
 
 }  // namespace onset

@@ -43,12 +43,12 @@ Constraints assemble_constraints(const ActiveSet& set, double eta, const std::ve
   for (std::vector<int>* ids : {&c.row, &c.dof}) ids->reserve(12 * set.size());
   c.value.reserve(12 * set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const std::array<int, 4> vertices = mapped(set.vertices[i], full_vertex);
+    const std::array<int, 4> vertices = mapped(set[i].vertices, full_vertex);
     for (std::size_t k = 0; k < 4; ++k)
       for (std::size_t a = 0; a < 3; ++a) {
         c.row.push_back(int(i));
         c.dof.push_back(3 * vertices[k] + int(a));
-        c.value.push_back(set.weight[i][k] * set.normal[i][a]);
+        c.value.push_back(set[i].weights[k] * set[i].normal[a]);
       }
   }
   return c;

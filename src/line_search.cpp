@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
 #include "src/shared/pair_list.hpp"
@@ -38,15 +39,15 @@ void check_step(const char* name, double step) {
 
 struct LineSearch::Impl {
   Mesh mesh;
-  Options options;
-  double gap_share, d_hat, rounding = 0;
+  LineSearchOptions options;
+  double rounding = 0;
   std::unique_ptr<Scene> scene;  // its motion; the tree goes once the pairs are held, and stays where they are too many
   std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
   StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
   PairList pairs, near;         // that may limit a step; that may come within d_hat on the way
 
   NarrowPhaseInput input() const {
-    return stored_step_input(mesh.data(), scene->motion, start.stats, options, gap_share, rounding);
+    return stored_step_input(mesh.data(), scene->motion, start.stats, options, options.gap_share, rounding);
   }
   bool fill(Budget& budget);
   const PairSource& source(const PairList& list) const {
@@ -62,9 +63,9 @@ bool LineSearch::Impl::fill(Budget& budget) {
   const std::int64_t most = options.memory_limit / std::int64_t(sizeof(IdPair));
   const NarrowPhase narrow(input());
   std::vector<CulledList> lists{{narrow, pairs}};
-  if (d_hat == 0) return cull_into(*scene->broad, lists, most, budget);
+  if (options.d_hat == 0) return cull_into(*scene->broad, lists, most, budget);
   Options beyond = options;
-  beyond.min_separation = euclidean_reach(mesh.data(), options, d_hat, rounding);
+  beyond.min_separation = euclidean_reach(mesh.data(), options, options.d_hat, rounding);
   beyond.norm = Norm::euclidean;
   const NarrowPhase far({mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, beyond});
   lists.push_back({far, near});
@@ -81,19 +82,21 @@ std::vector<double> LineSearch::Impl::at(double step) const {
   return x;
 }
 
-LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const Options& options,
-                       double gap_share, double d_hat)
-    : impl_(new Impl{mesh, options, gap_share, d_hat, 0, {}, {}, {}, {}, {}}) {
+LineSearch::LineSearch() = default;
+
+LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const LineSearchOptions& options)
+    : impl_(new Impl{mesh, options, 0, {}, {}, {}, {}, {}}) {
   check(options);
-  check_d_hat(d_hat, true);
-  check_gap_share(gap_share);
+  check_d_hat(options.d_hat, true);
+  check_gap_share(options.gap_share);
   const std::vector<double> x_t1 = sum(x_t0, dx);
   Impl& h = *impl_;
-  for (std::ptrdiff_t i = 0; d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
+  for (std::ptrdiff_t i = 0; options.d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
   in_arena(options.threads, [&] {
     const Positions end(x_t1.data(), x_t0.rows());
     Budget budget(h.options);
-    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, Scene::Use::stored_step, h.start.stats, budget, d_hat);
+    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, Scene::Use::stored_step, h.start.stats, budget,
+                                      options.d_hat);
     h.start.outcome = h.scene->motion.status;
     h.start.vertex = h.scene->motion.bad_vertex;
     if (h.start.outcome != Outcome::free) return;
@@ -108,49 +111,53 @@ LineSearch::~LineSearch() = default;
 LineSearch::LineSearch(LineSearch&&) noexcept = default;
 LineSearch& LineSearch::operator=(LineSearch&&) noexcept = default;
 
-PairCounts LineSearch::candidates() const { return impl_->pairs.counts(); }
-PairCounts LineSearch::close_candidates() const { return impl_->near.counts(); }
+const LineSearch::Impl& LineSearch::impl() const {
+  if (!impl_) throw std::logic_error("a line search that was made without a mesh, or moved from");
+  return *impl_;
+}
+
+PairCounts LineSearch::candidates() const { return impl().pairs.counts(); }
+PairCounts LineSearch::close_candidates() const { return impl().near.counts(); }
 
 LineSearchStep LineSearch::largest_step(double upper) const {
   check_step("upper", upper);
-  const Impl& h = *impl_;
+  const Impl& h = impl();
   LineSearchStep r;
-  r.result = h.start;
-  r.gap_share = h.gap_share;
-  r.rounding = h.start.rounding;
+  static_cast<StepResult&>(r) = h.start;
+  r.gap_share = h.options.gap_share;
   if (h.start.outcome != Outcome::free) return r;
   in_arena(h.options.threads, [&] {
     const Clock clock;
     Budget budget(h.options);
     const TraversalResult traversal = traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Collect::first, upper, budget);
-    copy_counts(traversal, r.result.stats);
-    limit_step(h.mesh, traversal, budget, upper, upper, r.result);
-    r.result.stats.seconds_narrow = r.result.stats.seconds_total = clock.seconds();
+    copy_counts(traversal, r.stats);
+    limit_step(h.mesh, traversal, budget, upper, upper, r);
+    r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
     for (const auto& [kind, stats] :
          {std::pair{PairKind::vertex_face, traversal.vertex_face}, {PairKind::edge_edge, traversal.edge_edge}}) {
       if (stats.least_share >= r.gap_share) continue;
       r.gap_share = std::max(stats.least_share, 0.0);
       r.gap_share_reduced = true;
-      r.closest = to_pair(h.mesh, {kind, {stats.closest, 0, 0, 0, Outcome::free}});
+      r.closest = to_pair(h.mesh, {kind, {stats.closest, 0, 0, 0, PairOutcome::free}});
     }
-    r.assured = r.result.outcome != Outcome::below_rounding || r.result.step > 0;
+    r.assured = r.outcome != Outcome::below_rounding || r.step > 0;
   });
   return r;
 }
 
 ClosePairs LineSearch::close_pairs(double step) const {
   check_step("step", step);
-  const Impl& h = *impl_;
-  if (h.d_hat == 0) throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
+  const Impl& h = impl();
+  if (h.options.d_hat == 0) throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
   ClosePairs r;
-  r.d_hat = h.d_hat;
+  r.d_hat = h.options.d_hat;
   r.outcome = h.start.outcome;
   r.vertex = h.start.vertex;
   if (r.outcome != Outcome::free) return r;
   in_arena(h.options.threads, [&] {
     const Clock clock;
     const std::vector<double> x = h.at(step);
-    r.pairs = find_close(h.source(h.near), {h.mesh, x.data(), h.d_hat, h.rounding, h.options});
+    r.pairs = find_close(h.source(h.near), {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options});
     r.seconds = clock.seconds();
   });
   return r;

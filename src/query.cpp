@@ -5,6 +5,7 @@
 #include "narrowphase/narrow_phase.hpp"
 #include "onset/query.hpp"
 #include "src/shared/checked_options.hpp"
+#include "src/shared/contacts.hpp"
 
 namespace onset {
 namespace {
@@ -32,9 +33,11 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
       motion.x[kMotionStride * v + 4 + a] = a < 3 ? t1[v][a] : 0;
     }
   finish_motion(motion);
+  const IdPair pair = kind == PairKind::vertex_face ? IdPair{0, 0} : IdPair{0, 1};
   QueryResult r;
+  static_cast<Pair&>(r) = {kind, pair.a, pair.b, {0, 1, 2, 3}};
   if (motion.status != Outcome::free) {
-    r.outcome = motion.status;
+    r.outcome = motion.status == Outcome::non_finite ? PairOutcome::non_finite : PairOutcome::out_of_range;
     r.toi = r.step_limit = 0;
     return r;
   }
@@ -50,16 +53,14 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
   const NarrowPhase narrow({mesh, motion, absolute_tolerance(options, extent), extent, options, exact_times});
   NarrowPhaseScratch scratch;
   std::vector<PairResult> found;
-  const IdPair pair = kind == PairKind::vertex_face ? IdPair{0, 0} : IdPair{0, 1};
   narrow.process(kind, &pair, 1, {}, scratch, found);
   r.checks = scratch.stats.checks;
   if (found.empty()) return r;
-  r.outcome = found[0].outcome;
-  r.toi = found[0].toi;
-  r.step_limit = found[0].step_limit;
-  r.tolerance = found[0].tolerance;
-  r.certainty = found[0].certainty;
-  r.toi_hi = found[0].toi_hi;
+  put(found[0], r);
+  const bool parting = r.outcome == PairOutcome::initial_separating;
+  ContactGeometry geometry;
+  contact_geometries(options.instruction_set, kind, motion, &r.vertices, &r.toi, &parting, 1, &geometry);
+  put(geometry, r);
   return r;
 }
 

@@ -1,6 +1,30 @@
 #include "onset/result.hpp"
 
+#include "onset/active_set.hpp"
+
 namespace onset {
+
+const char* to_string(PairOutcome outcome) {
+  switch (outcome) {
+    case PairOutcome::free:
+      return "free";
+    case PairOutcome::contact:
+      return "contact";
+    case PairOutcome::initial_contact:
+      return "initial_contact";
+    case PairOutcome::initial_separating:
+      return "initial_separating";
+    case PairOutcome::max_checks:
+      return "max_checks";
+    case PairOutcome::below_rounding:
+      return "below_rounding";
+    case PairOutcome::non_finite:
+      return "non_finite";
+    case PairOutcome::out_of_range:
+      return "out_of_range";
+  }
+  return "unknown";
+}
 
 const char* to_string(Outcome outcome) {
   switch (outcome) {
@@ -10,8 +34,6 @@ const char* to_string(Outcome outcome) {
       return "contact";
     case Outcome::initial_contact:
       return "initial_contact";
-    case Outcome::initial_separating:
-      return "initial_separating";
     case Outcome::max_checks:
       return "max_checks";
     case Outcome::below_rounding:
@@ -44,10 +66,10 @@ const char* to_string(Certainty certainty) {
   return "unknown";
 }
 
-std::ptrdiff_t ActiveSet::earliest() const {
-  std::ptrdiff_t best = -1;
-  for (std::size_t i = 0; i < toi.size(); ++i)
-    if (best < 0 || toi[i] < toi[std::size_t(best)]) best = std::ptrdiff_t(i);
+const Contact* ActiveSet::earliest() const {
+  const Contact* best = nullptr;
+  for (const Contact& contact : contacts)
+    if (best == nullptr || contact.toi < best->toi) best = &contact;
   return best;
 }
 

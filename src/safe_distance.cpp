@@ -1,4 +1,5 @@
 #include "onset/safe_distance.hpp"
+#include "onset/step_size.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "base/clock.hpp"
 #include "base/parallel.hpp"
+#include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/step_of_pairs.hpp"
 #include "src/start/places.hpp"
@@ -128,7 +130,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     if (const int torn = torn_vertex(mesh, x_t0, x_t1); torn >= 0) {
       r.step = r.shortest = r.toi = 0;
       r.outcome = Outcome::initial_contact;
-      r.limiting = Pair{};
+      r.limiting.reset();
       r.vertex = torn;
     } else if (budget.outcome() != Outcome::free) {
       r.step = step_by_gaps(mesh, x_t0, x_t1, close, gap_share);

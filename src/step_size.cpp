@@ -4,7 +4,8 @@
 
 #include "base/parallel.hpp"
 #include "onset/candidates.hpp"
-#include "onset/pipeline.hpp"
+#include "onset/step_size.hpp"
+#include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/find_contacts.hpp"
 #include "src/shared/step_of_pairs.hpp"

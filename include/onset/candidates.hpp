@@ -1,26 +1,51 @@
-// The step of pairs that the caller has chosen: found once, filtered, kept from call to call.
+// The broad phase alone: which pairs may touch at all.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <functional>
 #include <onset/export.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>
+#include <vector>
 
 namespace onset {
 
-// The largest step free of contact, and safe to store, of the pairs listed (counts and statistics of `candidates` are not used),
-// in any order. Pairs that are not listed are not looked at: the list must hold every pair that may touch, as
-// compute_candidates gives for this motion, or for one that contains it, and the same min_separation or more.
-// A pair that comes within the tolerance and never touches may limit this step and not that of the call
-// without a list, which does not look at pairs whose boxes are never at one place at one time.
+// The pairs whose swept boxes (of the motion, widened by half the separation each, and by half of what storing
+// positions in doubles can change) overlap and share no vertex.
+struct Candidates {
+  // Vertex and face; two edges, the smaller id first. Sorted.
+  std::vector<std::array<int, 2>> vertex_face, edge_edge;
+  PairCounts counts;
+  // free: complete. Where a budget was spent the lists are empty.
+  Outcome outcome = Outcome::free;
+  // The offending vertex of non_finite and out_of_range, else -1.
+  int vertex = -1;
+  Stats stats;
+};
+
+// Lists the candidates of a step. Guarantee: every pair that touches, or comes within its separation, on the exact
+// motion or as stored is among them.
 //
-// gap_share in [0, 1): every pair keeps this share of its gap at x_t0, as in LineSearch, so that the next step is
-// > 0.
+// x_t0, x_t1: #V x 3, model length, the two ends of a linear motion.
+// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out of range.
+// Safe to call concurrently on one Mesh.
+ONSET_API Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                                        const Options& options = {});
+
+// Counts them, in constant memory; the lists stay empty. Otherwise as compute_candidates.
+ONSET_API Candidates count_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                                      const Options& options = {});
+
+// Gets candidates of one kind, as in Candidates; `pairs` is valid during the call only.
+using CandidateVisitor = std::function<void(PairKind kind, const std::array<int, 2>* pairs, std::size_t count)>;
+
+// Hands every candidate to `visit`, each once, in batches and in no particular order, in constant memory.
 //
-// Throws as the call without a list, and std::invalid_argument naming the row for an id out of range or a
-// pair that shares a vertex.
-ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& candidates,
-                                                     const Positions& x_t0, const Positions& x_t1,
-                                                     const Options& options = {}, double gap_share = 0);
+// visit: called from several threads at once unless Options::threads is 1; an exception that it throws leaves the call.
+// Returns counts, outcome and statistics; after a spent budget not all were visited. Otherwise as compute_candidates.
+ONSET_API Candidates visit_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                                      const CandidateVisitor& visit, const Options& options = {});
 
 }  // namespace onset

@@ -35,14 +35,14 @@ struct StartFinding {
 // All lists are in order, and the same bytes for any number of threads, kernel and broad phase. Pairs are
 // those that the mesh lets meet: what is left out of every call is named in none.
 struct StartReport {
-  std::vector<Intersection> intersections;  // as intersections() lists them: Mesh::set_excluded_intersections
-  std::vector<Pair> touching;               // distance exactly 0, by (kind, a, b): Mesh::set_excluded_pairs
+  std::vector<Intersection> intersections;  // as intersections() lists them: CollisionRules::excluded_intersections
+  std::vector<Pair> touching;               // distance exactly 0, by (kind, a, b): CollisionRules::excluded_pairs
   // 0 < distance <= separation (min_separation + thickness, in the norm asked for), or beyond that by no more
   // than rounding, by (kind, a, b).
   std::vector<ClosePair> within_separation;
-  // {first vertex at a place, another one there}, by both; not what Mesh::set_weld or set_excluded_vertices
+  // {first vertex at a place, another one there}, by both; not what CollisionRules::weld or excluded_vertices
   // joins, what never meets (static, in one rigid body, in excluded bodies), nor unused vertices.
-  // duplicate_vertices() gives what set_excluded_vertices takes.
+  // duplicate_vertices() gives what CollisionRules::excluded_vertices takes.
   std::vector<std::array<int, 2>> copied_vertices;
   std::vector<int> faces_without_area;
   std::vector<int> unused_vertices;
@@ -69,8 +69,8 @@ struct StartReport {
 // out of range. Safe to call concurrently on one Mesh.
 ONSET_API StartReport check(const Mesh& mesh, const Positions& x, const Options& options = {});
 
-// Vertices at exactly the same place, as {smaller id, larger id}, by both: for Mesh::set_excluded_vertices,
-// after which all copies at one place count as one vertex. k copies are k (k - 1) / 2 pairs; Mesh::set_weld
+// Vertices at exactly the same place, as {smaller id, larger id}, by both: for CollisionRules::excluded_vertices,
+// after which all copies at one place count as one vertex. k copies are k (k - 1) / 2 pairs; CollisionRules::weld
 // needs no list. Throws std::invalid_argument for other than 3 columns, or naming the first row that is not
 // finite. O(#V log #V + pairs).
 ONSET_API std::vector<std::array<int, 2>> duplicate_vertices(const Positions& x);

@@ -2,14 +2,14 @@
 #pragma once
 
 #include <onset/export.hpp>
-#include <onset/result.hpp>
+#include <onset/active_set.hpp>
 #include <vector>
 
 namespace onset {
 
 // <n, p1 - p2> >= eta (paper, section 7.1), one row a contact, in the order of the active set: with
 // x = (x y z of vertex 0, x y z of vertex 1, ...), sum_k value[k] x[dof[k]] >= bound[r] over the entries k in
-// [12 r, 12 r + 12), all of different columns but for a point (Mesh::set_points), whose three come twice, the
+// [12 r, 12 r + 12), all of different columns but for a point (CollisionRules::points), whose three come twice, the
 // second time with 0. n and the weights are those at the contact's toi; x is any positions, say those at the
 // end of the step.
 struct Constraints {

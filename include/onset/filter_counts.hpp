@@ -7,13 +7,13 @@ namespace onset {
 
 // Pairs of one kind, from topology and filters alone: exact, the same for every step and broad phase.
 struct PairFilterCounts {
-  std::int64_t pairs = 0;  // vertex-face: #V #F; edge-edge: #E (#E - 1) / 2, with Mesh::set_points among #E
+  std::int64_t pairs = 0;  // vertex-face: #V #F; edge-edge: #E (#E - 1) / 2, with CollisionRules::points among #E
   // Left out, each pair under the first reason that holds:
-  std::int64_t masked = 0;     // groups and masks (Mesh::set_groups); see FilterCounts for very many of them
+  std::int64_t masked = 0;     // groups and masks (CollisionRules::groups); see FilterCounts for very many of them
   std::int64_t both_static = 0;  // both primitives are static
   std::int64_t same_body = 0;  // both in one body that is rigid or does not collide with itself
   std::int64_t adjacent = 0;   // they share a vertex
-  std::int64_t excluded = 0;   // named by Mesh::set_excluded_bodies, set_excluded_vertices
+  std::int64_t excluded = 0;   // named by CollisionRules::excluded_bodies and the like
   std::int64_t may_meet() const { return pairs - masked - both_static - same_body - adjacent - excluded; }
 };
 

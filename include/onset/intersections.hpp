@@ -1,10 +1,9 @@
 // Whether a mesh intersects itself where it stands: edges against faces, decided exactly.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <onset/export.hpp>
+#include <onset/intersection.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>
@@ -15,20 +14,6 @@ namespace onset {
 // Every call on a step assumes that its start is free of intersections: a pair that has passed through one
 // another before is apart on the wrong side, and nothing in the positions of that pair tells. These calls
 // look at edges against faces, where it does show.
-
-// What a closed edge and a closed face have in common.
-enum class IntersectionKind : std::uint8_t {
-  crossing,     // one point, inside the edge and inside the face: the edge goes through
-  touching,     // one point, an end of the edge or on the face's boundary among others
-  overlapping,  // a segment: the edge lies in the plane of the face, or along a face without area
-};
-ONSET_API const char* to_string(IntersectionKind kind);
-
-struct Intersection {
-  int edge = -1, face = -1;
-  IntersectionKind kind = IntersectionKind::crossing;
-  std::array<int, 5> vertices{-1, -1, -1, -1, -1};  // e0, e1, f0, f1, f2; a point (Mesh::set_points) twice
-};
 
 // Ordered by (edge, face): the same bytes for any number of threads, kernel and broad phase.
 struct Intersections {
@@ -49,7 +34,7 @@ struct Intersections {
 // Every edge and face with a common point at x (#V x 3), for the stored doubles, without a tolerance and at
 // any scale. Pairs that share a vertex are no pairs, and those that the mesh leaves out are left out here
 // (Mesh: static against static too, which no step can mend; vertices at one place count as one with
-// Mesh::set_weld). Points declared by Mesh::set_points are edges of length zero; other vertices are in the
+// CollisionRules::weld). Points declared by CollisionRules::points are edges of length zero; other vertices are in the
 // list only with their edges. check() looks at vertices against faces too, where a face folded flat onto its
 // neighbour shows. Of the options only time_limit, memory_limit, progress, threads, broad_phase and kernel
 // matter. Throws std::invalid_argument for a wrong number of rows or options out of range. Safe to call

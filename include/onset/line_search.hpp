@@ -7,49 +7,67 @@
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>
+#include <onset/step_size.hpp>
+#include <optional>
 
 namespace onset {
 
-struct LineSearchStep {
-  StepResult result;  // result.step: the largest safe step
-  // The share of its gap that every pair is sure to keep, once positions are rounded to stored doubles: the one
-  // asked for unless gap_share_reduced. A gap of less than 2 rounding / (1 - gap_share) may not keep it all: the share is
-  // cut, and `closest` names the pair. assured: false where a gap has no room for rounding at all, so that the
-  // step is 0 (Outcome::below_rounding); raise min_separation.
-  double gap_share = 0;
-  bool gap_share_reduced = false, assured = true;
-  Pair closest;
-  double rounding = 0;  // StepResult::rounding
+struct LineSearchOptions : Options {
+  LineSearchOptions() = default;
+  // NOLINTNEXTLINE: implicit by design, for who needs no more.
+  LineSearchOptions(const Options& options)
+      : Options(options) {}
+
+  // In [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its separation), or all but
+  // what is beyond the larger of d_hat and the tolerance, so that steps along one direction approach a contact as a
+  // sequence t_i < t_i+1 and never reach it, and from every result the next step is > 0.
+  double gap_share = 0.2;
+  // Model length. > 0: close_pairs can be asked for; 0: it cannot, and nothing is held for it.
+  double d_hat = 0;
 };
 
-// Holds the candidate pairs of x_t0 -> x_t0 + dx (paper, Algorithm 4). Const calls are safe from several
-// threads. Memory: 8 bytes a pair that single precision could not certify as free of contact for the whole
-// direction; with a d_hat, 8 more a pair that it could not certify as staying beyond d_hat, and 24 a vertex.
+// `step` is the largest safe one.
+struct LineSearchStep : StepResult {
+  // The share of its gap that every pair is sure to keep, once positions are rounded to stored doubles: the one asked
+  // for unless gap_share_reduced. A gap of less than 2 rounding / (1 - gap_share) may not keep it all: the share is
+  // cut, and `closest` names the pair.
+  double gap_share = 0;
+  bool gap_share_reduced = false;
+  // False where a gap has no room for rounding at all, so that the step is 0 (Outcome::below_rounding); raise
+  // min_separation.
+  bool assured = true;
+  std::optional<Pair> closest;
+};
+
+// Answers every question of a line search along one direction from one broad phase: its candidate pairs are held.
+//
+// Guarantee: as compute_collision_free_stepsize, for every step size asked.
+// Memory: 8 bytes a pair that single precision could not certify as free of contact for the whole direction; with a
+// d_hat, 8 more a pair that it could not certify as staying beyond d_hat, and 24 a vertex.
+// Const calls are safe from several threads.
+//
+// Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo 2021 (onset/step_size.hpp), section 7.2 and Algorithm 4:
+// d = p d_i, with p = gap_share.
 class ONSET_API LineSearch {
  public:
-  // dx: #V x 3 (or flat), model length: x_t1 = x_t0 + dx is formed here. Throws as
-  // compute_collision_free_stepsize.
-  //
-  // gap_share in [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its
-  // separation), or all but what is beyond the larger of d_hat and the tolerance, so that steps along one
-  // direction approach a contact as a sequence t_i < t_i+1 and never reach it, and from every result the next
-  // step is > 0 (paper, section 7.2: d = p d_i, with p = gap_share).
-  //
-  // d_hat > 0 (model length): close_pairs can be asked for; 0: it cannot, and nothing is held for it.
-  LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const Options& options = {},
-             double gap_share = 0.2, double d_hat = 0);
+  // Holds nothing: its calls throw std::logic_error.
+  LineSearch();
+  // x_t0, dx: #V x 3 (or flat), model length; x_t1 = x_t0 + dx is formed here.
+  // Throws as compute_collision_free_stepsize, and std::invalid_argument for gap_share or d_hat out of range.
+  LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const LineSearchOptions& options = {});
   ~LineSearch();
   LineSearch(LineSearch&&) noexcept;
   LineSearch& operator=(LineSearch&&) noexcept;
 
-  // The largest step in [0, upper] that is free of contact, in exact motion and once rounded to stored
+  // Computes the largest step in [0, upper] that is free of contact, in exact motion and once rounded to stored
   // doubles. StepResult::toi is infinite where there is no contact up to `upper`.
+  // upper: in [0, 1], else throws std::invalid_argument.
   LineSearchStep largest_step(double upper = 1) const;
 
-  // Every pair whose exact distance at x_t0 + step dx, step in [0, 1], is below d_hat plus its separation,
-  // both in exact arithmetic and as any order of rounding stores it; a pair beyond by no more than twice
-  // LineSearchStep::rounding may be listed as well. Weights and distances are those of the stored
-  // x_t0(v, a) + step * dx(v, a). A step that largest_step did not allow may be asked about too.
+  // Finds every pair whose exact distance at x_t0 + step dx is below d_hat plus its separation, both in exact arithmetic
+  // and as any order of rounding stores it; a pair beyond by no more than twice StepResult::rounding may be listed as
+  // well. Weights and distances are those of the stored x_t0(v, a) + step * dx(v, a).
+  // step: in [0, 1], else throws std::invalid_argument; also one that largest_step did not allow.
   ClosePairs close_pairs(double step) const;
 
   // Pairs held for largest_step and for close_pairs.
@@ -58,6 +76,7 @@ class ONSET_API LineSearch {
 
  private:
   struct Impl;
+  const Impl& impl() const;
   std::unique_ptr<Impl> impl_;
 };
 

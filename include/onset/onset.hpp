@@ -1,6 +1,7 @@
 // Everything a simulator includes.
 #pragma once
 
+#include <onset/active_set.hpp>
 #include <onset/candidates.hpp>
 #include <onset/check.hpp>
 #include <onset/close_pairs.hpp>
@@ -9,7 +10,7 @@
 #include <onset/line_search.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
-#include <onset/pipeline.hpp>
+#include <onset/step_size.hpp>
 #include <onset/query.hpp>
 #include <onset/result.hpp>
 #include <onset/safe_distance.hpp>

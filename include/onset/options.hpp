@@ -32,7 +32,7 @@ struct Options {
   double relative_tolerance = 1e-6;
 
   // d: model length, >= 0, never reduced. A pair is reported if it ever comes as close as d (plus the
-  // thickness of its vertices, Mesh::set_thickness), measured in `norm`; it is never reported if it always
+  // thickness of its vertices, CollisionRules::thickness), measured in `norm`; it is never reported if it always
   // stays farther away than d + tolerance, nor, by an active set, if it starts beyond d and never loses three quarters of that
   // excess (resting contact).
   double min_separation = 0;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <onset/export.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>
-#include <onset/views.hpp>
 
 namespace onset {
 
@@ -13,15 +13,29 @@ using Point = std::array<double, 3>;
 
 // The two ends of a linear motion, each four points (model length).
 struct VertexFaceQuery {
-  std::array<Point, 4> t0, t1;  // vertex, face corner 0, 1, 2
+  // Vertex, face corner 0, 1, 2.
+  std::array<Point, 4> t0, t1;
 };
 struct EdgeEdgeQuery {
-  std::array<Point, 4> t0, t1;  // edge a: 0, 1; edge b: 2, 3
+  // Edge a: 0, 1; edge b: 2, 3.
+  std::array<Point, 4> t0, t1;
 };
 
-// Touching counts as contact. An unset Options::tolerance is relative to this query's own extent. Threads,
-// broad phase are ignored. Throws std::invalid_argument for options out of range; NaN, infinities, |x| >
-// 2^1020 are outcomes.
+// A contact of `vertices` 0 to 3 in the query's order; ids a and b are 0 (two edges: 0 and 1). Where it is free, toi is
+// infinite, and there is no point or normal. Positions that are not usable: toi 0.
+struct QueryResult : Contact {
+  std::int64_t checks = 0;
+  bool collides() const { return outcome != PairOutcome::free; }
+};
+
+// Decides one pair on its own: when does it touch, where, with which normal. Touching counts as contact.
+//
+// Guarantee: as construct_active_set. Exactness::exact, separation 0: toi and toi_hi are adjacent doubles or the same.
+//
+// options: an unset tolerance is relative to this query's own extent; threads, broad phase and budgets of a call are
+//   not used.
+// Throws std::invalid_argument for options out of range; NaN, infinities, |x| > 2^1020 are outcomes.
+// Safe to call concurrently.
 ONSET_API QueryResult vertex_face_ccd(const VertexFaceQuery& query, const Options& options = {});
 ONSET_API QueryResult edge_edge_ccd(const EdgeEdgeQuery& query, const Options& options = {});
 

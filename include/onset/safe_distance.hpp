@@ -6,6 +6,7 @@
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>
+#include <onset/step_size.hpp>
 #include <vector>
 
 namespace onset {
@@ -22,7 +23,7 @@ namespace onset {
 //
 // x: the positions `close` was made for, with the same mesh. Throws std::invalid_argument where `close` has
 // an outcome, or pairs that are not of this mesh. 0 for the vertices of a pair that touches, or whose gap is no more than
-// storing can change it. Copies that Mesh::set_weld counts as one are taken to stay together. O(#V + pairs).
+// storing can change it. Copies that CollisionRules::weld counts as one are taken to stay together. O(#V + pairs).
 ONSET_API std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close);
 
 // The largest s in [0, 1] with s |dx_i| <= r_i for all i (dx: #V x 3 as many rows as r has values, else
@@ -36,7 +37,7 @@ ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 // |dx|). No broad phase: O(#V + pairs). Never later than the exact first contact of the whole mesh; outcome
 // `free` with step < 1 means that the bound ended it, not a pair; toi is no later than either says. Where a budget of `options` is spent, the
 // step is that of safe_distances, which looks at no pair: > 0 unless a listed one has no gap to speak of. Where a mesh
-// welds (Mesh::set_weld) and copies part in this motion, the step is 0 and `vertex` one of them. Throws as
+// welds (CollisionRules::weld) and copies part in this motion, the step is 0 and `vertex` one of them. Throws as
 // safe_distances.
 //
 // gap_share in [0, 1): every pair, listed or not, keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as in

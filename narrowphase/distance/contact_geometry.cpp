@@ -165,7 +165,7 @@ ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std:
   Geometry f;
   if (!wide_geometry(pair, t, f)) f = precise_geometry(pair, t, parting, odd(motion.axes));
   ContactGeometry r;
-  std::copy(f.near.weights, f.near.weights + 4, r.weight.begin());
+  std::copy(f.near.weights, f.near.weights + 4, r.weights.begin());
   for (int i = 0; i < 3; ++i) r.normal[std::size_t(motion.axes[std::size_t(i)])] = f.normal[i] + 0.0;
   r.gap = f.near.distance * f.unit;
   r.speed = f.speed * f.unit + 0.0;

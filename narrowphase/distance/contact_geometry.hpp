@@ -12,7 +12,7 @@ namespace onset {
 struct ContactGeometry {
   // Of the pair's four vertices: the closest points, the first side's sum to 1, the second's to -1, so that
   // p1 - p2 = sum of weight * position. Clamped to the primitives.
-  std::array<double, 4> weight{};
+  std::array<double, 4> weights{};
   // Unit, in the caller's axes. The direction of p1 - p2, which is square to the face, or to both edges,
   // where the points are inside both primitives; touching inside, the same on the side that the pair came
   // from, exactly. Touching, or as good as that, at a boundary: a direction that does, from where the pair

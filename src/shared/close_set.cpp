@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
 
-#include "base/parallel.hpp"
 #include "narrowphase/distance/closest_points.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion.hpp"
+#include "scene/pair_source.hpp"
+#include "src/shared/visit_pairs.hpp"
 
 namespace onset {
 namespace {
@@ -27,6 +27,8 @@ double separation_of(const CloseInput& in, const Pair& pair) {
   if (ratio == 1 && thickness == 0) return in.options.min_separation;
   return ratio * (in.options.min_separation + thickness) * (1 + 0x1p-50);
 }
+
+constexpr std::size_t kBlocksATask = 4;
 
 struct Task {
   const CloseInput& in;
@@ -51,10 +53,6 @@ struct Task {
     p.gap = std::max(0.0, gap * (1 - 0x1p-52));
     close.push_back(p);
   }
-  static void consume(void* context, const IdPair* pairs, std::size_t count) {
-    auto& task = *static_cast<Task*>(context);
-    for (std::size_t i = 0; i < count; ++i) task.add_if_close(pairs[i]);
-  }
 };
 
 }  // namespace
@@ -77,14 +75,14 @@ double euclidean_reach(const MeshData& mesh, const Options& options, double d_ha
 
 std::vector<ClosePair> find_close(const PairSource& candidates, const CloseInput& input) {
   std::vector<ClosePair> all;
-  std::mutex mutex;
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
-    parallel_ranges(candidates.blocks(kind), 4, [&](std::size_t first, std::size_t last) {
-      Task task{input, kind, {}};
-      candidates.traverse(kind, first, last, {&task, &Task::consume});
-      const std::lock_guard<std::mutex> lock(mutex);
-      all.insert(all.end(), task.close.begin(), task.close.end());
-    });
+    visit_pairs(
+        candidates, kind, kBlocksATask, Task{input, kind, {}},
+        [](Task& task, const IdPair* pairs, std::size_t count) {
+          for (std::size_t i = 0; i < count; ++i) task.add_if_close(pairs[i]);
+        },
+        [&](const Task& task, std::size_t) { all.insert(all.end(), task.close.begin(), task.close.end()); },
+        [] { return false; });
   parallel_sort(all.begin(), all.end(), [](const ClosePair& p, const ClosePair& q) {
     return std::tie(p.kind, p.a, p.b) < std::tie(q.kind, q.a, q.b);
   });

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "onset/close_pairs.hpp"
-#include "scene/pair_sink.hpp"
+#include "scene/pair_source.hpp"
 
 namespace onset {
 

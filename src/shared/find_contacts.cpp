@@ -31,7 +31,7 @@ double shrink_to_t_max(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow
   if (!sampled.contact) return 1;
   sampled.stored = sampled.clear = {};  // the whole finds them
   const PairResult& first = sampled.contact->result;
-  if (first.outcome == Outcome::max_checks) return 1;
+  if (first.outcome == PairOutcome::max_checks) return 1;
   // Where times are exact, a contact in the same bracket is as early: its boxes must meet too.
   const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
   const double t_max = collect == Collect::all ? latest_time(first) + options.window : limit;
@@ -50,7 +50,7 @@ double shrink_to_t_max(const Mesh& mesh, Scene& scene, const NarrowPhase& narrow
 void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) {
   double latest = INFINITY;
   for (const FoundPair& f : found)
-    if (f.result.outcome != Outcome::initial_separating) latest = std::min(latest, f.result.toi_hi);
+    if (f.result.outcome != PairOutcome::initial_separating) latest = std::min(latest, f.result.toi_hi);
   for (FoundPair& f : found)
     if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) narrow.sharpen(f.kind, f.result);
 }

@@ -5,6 +5,7 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "scene/pair_source.hpp"
 #include "src/shared/budget.hpp"
 
 namespace onset {

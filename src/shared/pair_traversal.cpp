@@ -1,3 +1,4 @@
+#include "scene/pair_source.hpp"
 #include "src/shared/pair_traversal.hpp"
 
 #include <algorithm>
@@ -304,8 +305,26 @@ void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats
   const bool edges = traversal.edge_edge.most_checks > traversal.vertex_face.most_checks;
   const IdPair pair = edges ? traversal.edge_edge.worst : traversal.vertex_face.worst;
   const PairKind kind = edges ? PairKind::edge_edge : PairKind::vertex_face;
-  if (pair.a >= 0) stats.worst = {kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
+  if (pair.a >= 0) stats.worst = Pair{kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
 }
+
+namespace {
+
+// Of a step that this pair limits.
+Outcome outcome_of_step(PairOutcome outcome) {
+  switch (outcome) {
+    case PairOutcome::initial_contact:
+      return Outcome::initial_contact;
+    case PairOutcome::max_checks:
+      return Outcome::max_checks;
+    case PairOutcome::below_rounding:
+      return Outcome::below_rounding;
+    default:  // one that parts at the start and is met again later limits the step as a contact
+      return Outcome::contact;
+  }
+}
+
+}  // namespace
 
 void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double t_max,
                 StepResult& r) {
@@ -323,21 +342,19 @@ void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget
     const PairResult& contact = limits.contact->result;
     r.toi = contact.step_limit;
     r.certainty = contact.limit_certainty;
-    if (contact.outcome != Outcome::initial_separating) r.toi_hi = contact.toi_hi;
+    if (contact.outcome != PairOutcome::initial_separating) r.toi_hi = contact.toi_hi;
   }
   const FoundPair* limiting = nullptr;
   if (limits.stored && (limits.stored->result.stored_limit < upper || limits.stored->result.stored_limit == 0)) {
     limiting = &*limits.stored;
     r.step = limiting->result.stored_limit;
-    r.outcome = limiting->result.outcome;
-    // A pair that parts at the start and is met again later limits the step as a contact.
-    if (r.outcome == Outcome::initial_separating) r.outcome = Outcome::contact;
+    r.outcome = outcome_of_step(limiting->result.outcome);
   }
   if (r.step > 0 && limits.clear && limits.clear->result.clear_from > r.step) limiting = &*limits.clear, r.step = 0;
   if (r.step > 0 && limits.clear) r.shortest = limits.clear->result.clear_from;
   if (limiting == nullptr) return;
   // What starts apart, or parts, is held back at once by rounding alone.
-  if (r.step == 0 && limiting->result.outcome != Outcome::initial_contact) r.outcome = Outcome::below_rounding;
+  if (r.step == 0 && limiting->result.outcome != PairOutcome::initial_contact) r.outcome = Outcome::below_rounding;
   r.limiting = to_pair(mesh, *limiting);
 }
 

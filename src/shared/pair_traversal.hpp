@@ -11,6 +11,8 @@
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "onset/mesh.hpp"
+#include "onset/step_size.hpp"
+#include "scene/pair_source.hpp"
 #include "src/shared/budget.hpp"
 
 namespace onset {

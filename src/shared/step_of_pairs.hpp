@@ -2,6 +2,7 @@
 #pragma once
 
 #include "onset/mesh.hpp"
+#include "onset/step_size.hpp"
 #include "scene/motion.hpp"
 #include "src/shared/pair_list.hpp"
 

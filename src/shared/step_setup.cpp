@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/buffer_pool.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
-#include "base/buffer_pool.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"

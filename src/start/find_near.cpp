@@ -2,6 +2,7 @@
 
 #include "narrowphase/at_rest/within_cube.hpp"
 #include "narrowphase/exact/exact.hpp"
+#include "scene/pair_source.hpp"
 #include "src/shared/close_set.hpp"
 #include "src/start/rest_pairs.hpp"
 

@@ -47,7 +47,7 @@ std::string of_intersections(const StartReport& report) {
     << crossing << " crossing), first edge " << p.edge << " (" << vertices_of(v, v + (v[0] == v[1] ? 1 : 2))
     << ") and face " << p.face << " (" << vertices_of(v + 2, v + 5) << "), " << to_string(p.kind)
     << ": move them apart; to leave out those that are meant, "
-       "mesh.set_excluded_intersections(report.intersections)"
+       "rules.excluded_intersections = report.intersections"
     << seam_hint(report);
   return s.str();
 }
@@ -55,7 +55,7 @@ std::string of_intersections(const StartReport& report) {
 std::string of_touching(const StartReport& report) {
   return counted(report.touching.size(), "pair touches", "pairs touch") + ", first " +
          named(report.touching.front()) +
-         ": move them apart; to leave them out, mesh.set_excluded_pairs(report.touching); to let them part "
+         ": move them apart; to leave them out, rules.excluded_pairs = report.touching; to let them part "
          "where they touch "
          "from the right side, Options::touching_may_pass_through" +
          seam_hint(report);
@@ -66,17 +66,17 @@ std::string of_close(const StartReport& report) {
   std::ostringstream s;
   s << counted(report.within_separation.size(), "pair is", "pairs are") << " within the separation, first "
     << named(p) << ", " << p.distance << " apart where " << p.separation
-    << " is to be kept: move them apart, lower Options::min_separation or mesh.set_thickness, or leave them "
+    << " is to be kept: move them apart, lower Options::min_separation or rules.thickness, or leave them "
        "out: "
-       "mesh.set_excluded_pairs({report.within_separation.begin(), report.within_separation.end()})";
+       "rules.excluded_pairs = {report.within_separation.begin(), report.within_separation.end()}";
   return s.str();
 }
 
 std::string of_copies(const StartReport& report) {
   return counted(report.copied_vertices.size(), "vertex is", "vertices are") +
          " at the place of another, first vertices " + listed(report.copied_vertices.front()) +
-         ": where they are the copies of a seam, mesh.set_weld(true), or "
-         "mesh.set_excluded_vertices(onset::duplicate_vertices(x)); else move them apart";
+         ": where they are the copies of a seam, rules.weld = true, or "
+         "rules.excluded_vertices = onset::duplicate_vertices(x); else move them apart";
 }
 
 std::string of_faces(const Mesh& mesh, const StartReport& report) {
@@ -92,7 +92,7 @@ std::string of_faces(const Mesh& mesh, const StartReport& report) {
 std::string of_unused(const StartReport& report) {
   return counted(report.unused_vertices.size(), "vertex belongs", "vertices belong") +
          " to no edge and no face, first vertex " + std::to_string(report.unused_vertices.front()) +
-         ": they meet faces only; mesh.set_points(report.unused_vertices) lets them meet edges and each "
+         ": they meet faces only; rules.points = report.unused_vertices lets them meet edges and each "
          "other";
 }
 

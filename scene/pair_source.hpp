@@ -1,0 +1,61 @@
+// Where pairs come from, and the vertices of a pair.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "scene/mesh_data.hpp"
+#include "scene/pair_sink.hpp"
+
+namespace onset {
+
+// The vertices of a pair's first and second side.
+inline void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) {
+  if (kind == PairKind::vertex_face) {
+    const auto& f = mesh.faces[std::size_t(p.b)];
+    v[0] = p.a, v[1] = f[0], v[2] = f[1], v[3] = f[2];
+  } else {
+    std::copy_n(mesh.edges[std::size_t(p.a)].data(), 2, v);
+    std::copy_n(mesh.edges[std::size_t(p.b)].data(), 2, v + 2);
+  }
+}
+inline std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair p) {
+  std::array<int, 4> v;
+  put_vertices(mesh, kind, p, v.data());
+  return v;
+}
+
+// Anything that streams pairs.
+class PairSource {
+ public:
+  virtual ~PairSource() = default;
+  // Units of work that may be traversed concurrently; their number and content do not depend on the thread
+  // count. None where a motion is not finite or out of range.
+  virtual std::size_t blocks(PairKind kind) const = 0;
+  // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
+  virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
+};
+
+// Collects pairs and hands them on in batches.
+class PairBatch {
+ public:
+  explicit PairBatch(const PairSink& sink) : sink_(sink) {}
+  PairBatch(const PairBatch&) = delete;
+  PairBatch& operator=(const PairBatch&) = delete;
+
+  void add(int a, int b) {
+    pairs_[count_++] = {a, b};
+    if (count_ == kBatchSize) flush();
+  }
+  void flush() {
+    if (count_ > 0) sink_(pairs_, count_);
+    count_ = 0;
+  }
+
+ private:
+  const PairSink& sink_;
+  std::size_t count_ = 0;
+  IdPair pairs_[kBatchSize];
+};
+
+}  // namespace onset

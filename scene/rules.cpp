@@ -1,0 +1,144 @@
+#include "scene/rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "scene/named_pairs.hpp"
+
+namespace onset {
+
+void reject_row(const char* what, std::ptrdiff_t row, const std::string& why) {
+  throw std::invalid_argument(std::string(what) + " row " + std::to_string(row) + ": " + why);
+}
+
+void check_size(const char* what, std::size_t size, std::ptrdiff_t wanted, const char* of) {
+  if (std::ptrdiff_t(size) != wanted)
+    throw std::invalid_argument(std::string(what) + " has " + std::to_string(size) + " values for " +
+                                std::to_string(wanted) + " " + of);
+}
+
+namespace {
+
+std::vector<std::array<int, 2>> checked_pairs(const char* what, std::vector<std::array<int, 2>> pairs,
+                                              std::ptrdiff_t count) {
+  for (std::size_t r = 0; r < pairs.size(); ++r) {
+    auto& [a, b] = pairs[r];
+    for (const int i : {a, b})
+      if (i < 0 || i >= count)
+        reject_row(what, std::ptrdiff_t(r),
+               "id " + std::to_string(i) + " is out of range, there are " + std::to_string(count));
+    if (a == b) reject_row(what, std::ptrdiff_t(r), "id " + std::to_string(a) + " is repeated");
+    if (a > b) std::swap(a, b);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+template <std::size_t N>
+void check_one_body(const char* what, const std::vector<std::array<int, N>>& elements,
+                    const std::vector<int>& body) {
+  for (std::size_t r = 0; r < elements.size(); ++r)
+    for (const int v : elements[r])
+      if (const int first = elements[r][0]; body[std::size_t(v)] != body[std::size_t(first)])
+        reject_row(what, std::ptrdiff_t(r),
+               "vertex " + std::to_string(first) + " is in body " + std::to_string(body[std::size_t(first)]) +
+                   ", vertex " + std::to_string(v) + " in body " + std::to_string(body[std::size_t(v)]));
+}
+
+// Points are edges {v, v} after all others.
+void apply_points(const std::vector<int>& ids, MeshData& data) {
+  data.edges.resize(data.edges.size() - std::size_t(data.num_points));
+  enum : char { none, element, point };
+  std::vector<char> part(std::size_t(data.num_vertices), none);
+  for (const auto& e : data.edges)
+    for (const int v : e) part[std::size_t(v)] = element;
+  for (const auto& f : data.faces)
+    for (const int v : f) part[std::size_t(v)] = element;
+  for (std::size_t r = 0; r < ids.size(); ++r) {
+    const auto bad = [&](const std::string& why) {
+      reject_row("points", std::ptrdiff_t(r), "vertex " + std::to_string(ids[r]) + why);
+    };
+    if (ids[r] < 0 || ids[r] >= data.num_vertices)
+      bad(" is out of range, there are " + std::to_string(data.num_vertices));
+    char& used = part[std::size_t(ids[r])];
+    if (used == element) bad(" belongs to an edge or a face");
+    if (used == point) bad(" is repeated");
+    used = point;
+  }
+  for (const int v : ids) data.edges.push_back({v, v});
+  data.num_points = int(ids.size());
+}
+
+void apply_thickness(const std::vector<double>& thickness, MeshData& data) {
+  if (!thickness.empty()) check_size("thickness", thickness.size(), data.num_vertices, "vertices");
+  for (std::size_t v = 0; v < thickness.size(); ++v)
+    if (!(thickness[v] >= 0) || !std::isfinite(thickness[v]))
+      reject_row("thickness", std::ptrdiff_t(v), std::to_string(thickness[v]) + " is not a finite number >= 0");
+  // All zero is none.
+  const bool any = std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0; });
+  data.thickness = any ? thickness : std::vector<double>();
+}
+
+int count_bodies(const MeshData& data) {
+  return data.body.empty() ? 1 : *std::max_element(data.body.begin(), data.body.end()) + 1;
+}
+
+std::vector<bool> flags_of_bodies(const char* what, const std::vector<bool>& flags, const MeshData& data) {
+  if (!flags.empty()) check_size(what, flags.size(), count_bodies(data), "bodies");
+  return flags;
+}
+
+void apply_bodies(const CollisionRules& rules, MeshData& data) {
+  const std::vector<int>& body = rules.bodies;
+  if (!body.empty()) check_size("bodies", body.size(), data.num_vertices, "vertices");
+  for (std::size_t v = 0; v < body.size(); ++v)
+    if (body[v] < 0 || body[v] == std::numeric_limits<int>::max())
+      reject_row("bodies", std::ptrdiff_t(v), "id " + std::to_string(body[v]) + " is not in [0, 2^31 - 1)");
+  if (!body.empty()) {
+    check_one_body("edge", data.edges, body);
+    check_one_body("face", data.faces, body);
+  }
+  data.body = body;
+  data.rigid = flags_of_bodies("rigid_bodies", rules.rigid_bodies, data);
+  data.no_self =
+      flags_of_bodies("bodies_without_self_collision", rules.bodies_without_self_collision, data);
+  data.excluded_bodies = checked_pairs("excluded_bodies", rules.excluded_bodies, count_bodies(data));
+}
+
+void apply_groups(const CollisionRules& rules, MeshData& data) {
+  if (!rules.groups.empty() || !rules.masks.empty()) {
+    check_size("groups", rules.groups.size(), data.num_vertices, "vertices");
+    check_size("masks", rules.masks.size(), data.num_vertices, "vertices");
+  }
+  data.group = rules.groups, data.mask = rules.masks;
+}
+
+void apply_pairs(const CollisionRules& rules, MeshData& data) {
+  const std::vector<PairKind> kinds{PairKind::vertex_face, PairKind::edge_edge};
+  NamedPairs pairs("excluded_pairs", data, kinds);
+  for (const Pair& p : rules.excluded_pairs) pairs.add(p.kind, p.a, p.b);
+  for (const PairKind kind : kinds) data.excluded_pairs[std::size_t(kind)] = pairs.of(kind);
+  NamedPairs intersections("excluded_intersections", data, {kEdgeFace});
+  for (const Intersection& p : rules.excluded_intersections) intersections.add(kEdgeFace, p.edge, p.face);
+  data.excluded_pairs[std::size_t(kEdgeFace)] = intersections.of(kEdgeFace);
+}
+
+}  // namespace
+
+void apply_rules(const CollisionRules& rules, MeshData& data) {
+  apply_points(rules.points, data);
+  apply_thickness(rules.thickness, data);
+  apply_bodies(rules, data);
+  if (!rules.static_vertices.empty())
+    check_size("static_vertices", rules.static_vertices.size(), data.num_vertices, "vertices");
+  data.is_static = rules.static_vertices;
+  apply_groups(rules, data);
+  data.weld = rules.weld;
+  data.excluded_vertices = checked_pairs("excluded_vertices", rules.excluded_vertices, data.num_vertices);
+  apply_pairs(rules, data);
+}
+
+}  // namespace onset
