@@ -16,10 +16,13 @@ namespace {
 constexpr std::size_t kGrain = 4096;
 
 void check_shape(const char* name, int num_vertices, const Positions& x) {
-  if (x.cols() != 3 || x.rows() != num_vertices)
-    throw std::invalid_argument(std::string(name) + " has " + std::to_string(x.rows()) + " rows of " +
-                                std::to_string(x.cols()) + " coordinates; the mesh has " +
-                                std::to_string(num_vertices) + " vertices and needs one row of 3 for each");
+  if (x.cols() == 3 && x.rows() == num_vertices) return;
+  std::string why = std::string(name) + " has " + std::to_string(x.rows()) + " rows of " + std::to_string(x.cols()) +
+                    " coordinates; the mesh has " + std::to_string(num_vertices) +
+                    " vertices and needs one row of 3 for each";
+  if (x.rows() == 3 && x.cols() == num_vertices)
+    why += std::string(": pass ") + name + ".transpose(), or Positions(" + name + ".data(), #V) where it is column-major";
+  throw std::invalid_argument(why);
 }
 
 // x - y without rounding: the rounded difference and what it leaves (Knuth's two-sum; no overflow within
