@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/mesh_data.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 #include "scene/primitive_filter.hpp"
 
 namespace onset {

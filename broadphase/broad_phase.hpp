@@ -8,7 +8,7 @@
 #include "broadphase/box_test.hpp"
 #include "onset/options.hpp"
 #include "scene/mesh_data.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 #include "scene/pair_source.hpp"
 #include "scene/primitive.hpp"
 

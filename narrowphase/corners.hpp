@@ -1,7 +1,7 @@
 // One pair as scalar code sees it: corner differences scaled by a power of two.
 #pragma once
 
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 
 namespace onset {
 

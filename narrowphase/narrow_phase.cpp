@@ -6,6 +6,7 @@
 
 #include "narrowphase/kernel/kernels.hpp"
 #include "narrowphase/pair_decision.hpp"
+#include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 
 namespace onset {

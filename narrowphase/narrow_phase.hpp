@@ -8,7 +8,8 @@
 #include "narrowphase/kernel/float_positions.hpp"
 #include "narrowphase/kernel/kernel.hpp"
 #include "onset/options.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
+#include "scene/motion/storing.hpp"
 #include "scene/pair_sink.hpp"
 
 namespace onset {

@@ -8,7 +8,8 @@
 #include <cmath>
 
 #include "narrowphase/pair_decision.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
+#include "scene/motion/storing.hpp"
 
 namespace onset {
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "scene/edges_of_faces.hpp"
-#include "scene/rules.hpp"
 #include "scene/primitive.hpp"
 #include "scene/primitive_filter.hpp"
+#include "scene/rules.hpp"
 #include "scene/static_cache.hpp"
 
 namespace onset {

@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"

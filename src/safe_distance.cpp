@@ -8,6 +8,7 @@
 
 #include "base/clock.hpp"
 #include "base/parallel.hpp"
+#include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/step_of_pairs.hpp"

@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "onset/candidates.hpp"
 #include "onset/step_size.hpp"
+#include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/find_contacts.hpp"

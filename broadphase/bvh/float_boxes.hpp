@@ -8,7 +8,7 @@
 #include "base/aligned.hpp"
 #include "broadphase/bvh/kernel.hpp"
 #include "broadphase/motion_box.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 
 namespace onset {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "onset/options.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 
 namespace onset {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "onset/result.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 
 namespace onset {
 

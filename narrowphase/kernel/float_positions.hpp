@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/aligned.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 
 namespace onset {
 

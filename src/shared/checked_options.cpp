@@ -1,3 +1,4 @@
+#include "scene/motion/extents.hpp"
 #include "src/shared/checked_options.hpp"
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 
 #include "onset/options.hpp"
 #include "scene/mesh_data.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/extents.hpp"
+#include "scene/motion/motion.hpp"
 
 namespace onset {
 

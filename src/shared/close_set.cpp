@@ -8,7 +8,7 @@
 
 #include "narrowphase/distance/closest_points.hpp"
 #include "narrowphase/narrow_phase.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/visit_pairs.hpp"
 

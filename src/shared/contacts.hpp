@@ -5,7 +5,7 @@
 
 #include "narrowphase/distance/contact_geometry.hpp"
 #include "onset/active_set.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 #include "src/shared/pair_traversal.hpp"
 
 namespace onset {

@@ -12,6 +12,7 @@
 #include "narrowphase/narrow_phase.hpp"
 #include "onset/mesh.hpp"
 #include "onset/step_size.hpp"
+#include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/budget.hpp"
 

@@ -1,3 +1,5 @@
+#include "scene/motion/extents.hpp"
+#include "scene/motion/storing.hpp"
 #include "src/shared/step_of_pairs.hpp"
 
 #include "base/clock.hpp"

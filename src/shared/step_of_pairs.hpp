@@ -3,7 +3,7 @@
 
 #include "onset/mesh.hpp"
 #include "onset/step_size.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 #include "src/shared/pair_list.hpp"
 
 namespace onset {

@@ -7,6 +7,7 @@
 #include "base/clock.hpp"
 #include "broadphase/broad_phase.hpp"
 #include "onset/mesh.hpp"
+#include "scene/motion/storing.hpp"
 #include "src/shared/budget.hpp"
 
 namespace onset {

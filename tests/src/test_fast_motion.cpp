@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "broadphase/box_test.hpp"
-#include "scene/motion.hpp"
+#include "scene/motion/motion.hpp"
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/src/support/mesh_pairs.hpp"

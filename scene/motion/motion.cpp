@@ -1,0 +1,186 @@
+#include "scene/motion/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "scene/motion/canonical_axes.hpp"
+#include "scene/static_cache.hpp"
+
+namespace onset {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+void check_shape(const char* name, int num_vertices, const Positions& x) {
+  if (x.cols() == 3 && x.rows() == num_vertices) return;
+  std::string why = std::string(name) + " has " + std::to_string(x.rows()) + " rows of " + std::to_string(x.cols()) +
+                    " coordinates; the mesh has " + std::to_string(num_vertices) +
+                    " vertices and needs one row of 3 for each";
+  if (x.rows() == 3 && x.cols() == num_vertices)
+    why += std::string(": pass ") + name + ".transpose(), or Positions(" + name + ".data(), #V) where it is column-major";
+  throw std::invalid_argument(why);
+}
+
+std::array<int, 3> canonical_axes(const Motion& m) {
+  std::array<double, 3> width{};
+  for (int a = 0; a < 3; ++a) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (int v = 0; v < m.num_vertices; ++v)
+      for (const double* x : {m.t0(v), m.t1(v)}) lo = std::min(lo, x[a]), hi = std::max(hi, x[a]);
+    width[a] = hi - lo;
+  }
+  return widest_first(width, m.num_vertices,
+                      [&](int v, int end, int a) { return (end == 0 ? m.t0(v) : m.t1(v))[a]; });
+}
+
+void store_permuted(Motion& m) {
+  if (m.axes == std::array<int, 3>{0, 1, 2}) return;
+  parallel_ranges(std::size_t(m.num_vertices) * 2, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      double* x = m.x.data() + 4 * i;
+      const double old[3] = {x[0], x[1], x[2]};
+      for (int a = 0; a < 3; ++a) x[a] = old[m.axes[a]];
+    }
+  });
+}
+
+Outcome classify(const double* x) {
+  Outcome result = Outcome::free;
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(x[a])) return Outcome::non_finite;
+    if (std::fabs(x[a]) > kMaxCoordinate) result = Outcome::out_of_range;
+  }
+  return result;
+}
+
+void find_bad_vertex(Motion& m) {
+  for (int v = 0; v < m.num_vertices && m.status == Outcome::free; ++v)
+    for (const double* x : {m.t0(v), m.t1(v)})
+      if (const Outcome o = classify(x); o != Outcome::free && m.status == Outcome::free)
+        m.status = o, m.bad_vertex = v;
+}
+
+}  // namespace
+
+namespace {
+
+// The canonical axes of the scene, from the free vertices and what is known of the others; false where a
+// position is not usable.
+bool axes_around(const PrimitiveFilter& filter, const StaticMotion& still, const Positions& x_t0,
+                 const Positions& x_t1, std::array<int, 3>& axes) {
+  std::array<double, 3> width{};
+  for (int a = 0; a < 3; ++a) {
+    double lo = still.lo[a], hi = still.hi[a];
+    for (int v : filter.free_ids)
+      for (const double x : {x_t0(v, a), x_t1(v, a)}) {
+        if (!(std::fabs(x) <= kMaxCoordinate)) return false;
+        lo = std::min(lo, x), hi = std::max(hi, x);
+      }
+    width[a] = hi - lo;
+  }
+  axes = widest_first(width, int(x_t0.rows()),
+                      [&](int v, int end, int a) { return end == 0 ? x_t0(v, a) : x_t1(v, a); });
+  return true;
+}
+
+// The motion of a mesh whose static vertices are where they were; empty where they are not, or anything else
+// wants a closer look.
+Motion motion_around(const MeshData& mesh, std::shared_ptr<const StaticMotion> still, const Positions& x_t0,
+                     const Positions& x_t1) {
+  const PrimitiveFilter& filter = *mesh.filter;
+  Motion m;
+  if (!axes_around(filter, *still, x_t0, x_t1, m.axes)) return {};
+  if (!still->stands_at(filter.static_ids, x_t0) || !still->stands_at(filter.static_ids, x_t1)) return {};
+  m.x = still->take(m.axes);
+  const bool reused = m.x.size() > 0;
+  if (!reused) m.x = AlignedArray<double>(std::size_t(mesh.num_vertices) * kMotionStride);
+  const auto fill = [&](const std::vector<int>& ids) {
+    for (int v : ids) {
+      double* x = m.x.data() + std::size_t(v) * kMotionStride;
+      for (int a = 0; a < 3; ++a) x[a] = x_t0(v, m.axes[a]), x[4 + a] = x_t1(v, m.axes[a]);
+      x[3] = x[7] = 0;
+    }
+  };
+  fill(filter.free_ids);
+  if (!reused) fill(filter.static_ids);
+  m.num_vertices = mesh.num_vertices;
+  m.static_part = std::move(still);
+  m.rows_last = true;
+  return m;
+}
+
+void check_rows(const MeshData& mesh, const char* name, const Positions& x) {
+  if (x.cols() == 3 && x.rows() != mesh.num_vertices && x.rows() == mesh.num_full_vertices)
+    throw std::invalid_argument(std::string(name) + " has the " + std::to_string(x.rows()) +
+                                " rows of the full mesh; the surface has " +
+                                std::to_string(mesh.num_vertices) + ": pass Mesh::surface_positions(" + name +
+                                ")");
+  check_shape(name, mesh.num_vertices, x);
+}
+
+}  // namespace
+
+Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
+  check_rows(mesh, "x_t0", x_t0);
+  check_rows(mesh, "x_t1", x_t1);
+  const bool cached = mesh.filter->has_static();
+  auto still = cached ? mesh.static_cache->motion.get() : nullptr;
+  if (still)
+    if (Motion m = motion_around(mesh, still, x_t0, x_t1); m.static_part) return m;
+  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1);
+  if (m.status != Outcome::free) return m;
+  bool same = still != nullptr;
+  for (std::size_t k = 0; k < mesh.filter->static_ids.size(); ++k) {
+    const int v = mesh.filter->static_ids[k];
+    for (int a = 0; a < 3; ++a) {
+      if (m.t0(v)[a] != m.t1(v)[a])
+        throw std::invalid_argument("vertex " + std::to_string(v) + " is static, but x_t0 and x_t1 differ");
+      same = same && same_bits(&m.t0(v)[a], &still->x[3 * k + std::size_t(m.axes[a])], 1);
+    }
+  }
+  if (!cached) return m;
+  if (!same) {
+    still = make_static_motion(mesh, m);
+    mesh.static_cache->motion.put(still);
+  }
+  m.static_part = std::move(still);
+  return m;
+}
+
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1) {
+  check_shape("x_t0", num_vertices, x_t0);
+  check_shape("x_t1", num_vertices, x_t1);
+  Motion m;
+  m.num_vertices = num_vertices;
+  m.x = AlignedArray<double>(std::size_t(num_vertices) * kMotionStride);
+  parallel_ranges(num_vertices, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) {
+      double* x = m.x.data() + v * kMotionStride;
+      for (int a = 0; a < 3; ++a) x[a] = x_t0(v, a), x[4 + a] = x_t1(v, a);
+      x[3] = x[7] = 0;
+    }
+  });
+  finish_motion(m);
+  return m;
+}
+
+void finish_motion(Motion& m) {
+  find_bad_vertex(m);
+  if (m.status != Outcome::free || m.num_vertices == 0) return;
+  m.axes = canonical_axes(m);
+  store_permuted(m);
+}
+
+bool is_seam(const Motion& m, PairKind kind, const std::array<int, 4>& vertices) {
+  return any_across(points_of_first_side(kind), 4, [&](int i, int j) {
+    const int v = vertices[std::size_t(i)], w = vertices[std::size_t(j)];
+    return at_one_place(m.t0(v), m.t0(w)) && at_one_place(m.t1(v), m.t1(w));
+  });
+}
+
+}  // namespace onset
