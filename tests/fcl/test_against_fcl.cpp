@@ -3,7 +3,7 @@
 // slightly longer one.
 #include <Eigen/Geometry>
 
-#include "onset/pipeline.hpp"
+#include "onset/step_size.hpp"
 #include "tests/catch.hpp"
 #include "tests/fcl/bodies.hpp"
 #include "tests/scenes/meshes.hpp"

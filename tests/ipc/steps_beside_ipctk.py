@@ -1,4 +1,4 @@
-"""onset/ipc.hpp and ipctk on the same scenes: the same verdicts, steps as long up to both libraries' safety margins, and no
+"""onset/compat/ipc.hpp and ipctk on the same scenes: the same verdicts, steps as long up to both libraries' safety margins, and no
 intersection where a step ends."""
 
 import pathlib

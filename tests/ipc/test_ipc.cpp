@@ -1,5 +1,5 @@
 // The adapter, used as code written for ipc-toolkit uses it: only the include and the namespace differ.
-#include <onset/ipc.hpp>
+#include <onset/compat/ipc.hpp>
 
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"

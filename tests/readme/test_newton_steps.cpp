@@ -145,7 +145,9 @@ TEST_CASE("a thousand of the README's Newton steps into contact", "[oracle][fcl]
         const Eigen::MatrixXd dx = pull.newton_direction(from, close_pairs(mesh, from, d_hat));
         if (dx.cwiseAbs().maxCoeff() < 1e-8) break;  // at rest: what follows is rounding
         CAPTURE(run, time, i, steps, d_hat, kappa);
-        const StepResult allowed = LineSearch(mesh, from, dx, {}, 0.2, d_hat).largest_step().result;
+        LineSearchOptions options;
+        options.d_hat = d_hat;
+        const LineSearchStep allowed = LineSearch(mesh, from, dx, options).largest_step();
         CHECK(allowed.step > 0);
         limited += allowed.outcome == Outcome::contact;
         CHECK((to - from).cwiseAbs().maxCoeff() > 0);
@@ -168,13 +170,15 @@ TEST_CASE("a thousand steps straight into contact approach it and never arrive",
   target.topRows(bodies.ball).rowwise() += Eigen::RowVector3d(0, 0, -2);
   Exact exact(mesh);
   const double at_start = fcl_test::distance(x, bodies.scene.faces, int(bodies.ball));
+  LineSearchOptions options;
+  options.gap_share = 0.97;
   for (int i = 0; i < 1000; ++i) {
     CAPTURE(i);
-    const LineSearchStep r = LineSearch(mesh, x, target - x, {}, 0.97).largest_step();
-    REQUIRE(r.result.step > 0);
-    REQUIRE(r.result.outcome == Outcome::contact);
+    const LineSearchStep r = LineSearch(mesh, x, target - x, options).largest_step();
+    REQUIRE(r.step > 0);
+    REQUIRE(r.outcome == Outcome::contact);
     CHECK(r.assured);
-    const Eigen::MatrixXd next = x + r.result.step * (target - x);
+    const Eigen::MatrixXd next = x + r.step * (target - x);
     CHECK(next != x);
     CHECK_FALSE(exact.touches(x, next));
     CHECK_FALSE(fcl_test::intersect(next, bodies.scene.faces, int(bodies.ball)));

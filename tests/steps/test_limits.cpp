@@ -102,11 +102,11 @@ TEST_CASE("windows and memory limits leave out no contact before complete_until"
     const ActiveSet set = construct_active_set(mesh, scene.x_t0, scene.x_t1, limited);
     const std::string wrong = wrong_set({mesh, scene.x_t0, scene.x_t1, limited, {}}, truth, set);
     INFO("scene " << i << ", window " << limited.window << ", memory " << limited.memory_limit
-                  << ", certainty " << int(limited.exactness) << ", complete until " << set.complete_until
+                  << ", exactness " << int(limited.exactness) << ", complete until " << set.complete_until
                   << ", rows " << set.size());
     CHECK(wrong == "");
     if (full.size() > 0 && set.size() > 0)
-      CHECK(set.toi[std::size_t(set.earliest())] == full.toi[std::size_t(full.earliest())]);
+      CHECK(set.earliest()->toi == full.earliest()->toi);
     CHECK(is_step_collision_free(mesh, scene.x_t0, scene.x_t1, limited) ==
           is_step_collision_free(mesh, scene.x_t0, scene.x_t1, options));
     cut += set.size() < full.size();
@@ -114,7 +114,7 @@ TEST_CASE("windows and memory limits leave out no contact before complete_until"
   CHECK(10 * cut > oracle::fuzz(120));
 }
 
-TEST_CASE("few checks, values of t_max and windows give the same bytes for any number of threads and either kernel",
+TEST_CASE("few checks, values of t_max and windows give the same bytes for any number of threads and either instruction set",
           "[determinism]") {
   Random random(oracle::fuzz_seed() * 1000 + 62);
   for (int i = 0; i < oracle::fuzz(24); ++i) {
@@ -129,7 +129,7 @@ TEST_CASE("few checks, values of t_max and windows give the same bytes for any n
     if (scenes::coin(random)) o.window = scenes::coin(random) ? 0 : 0.01;
     if (scenes::integer(random, 0, 3) == 0) o.memory_limit = bytes_of(scenes::integer(random, 0, 20));
     const Answers one = ask(calls, scene, o, 1);
-    INFO("scene " << i << ", checks " << o.max_checks << ", certainty " << int(o.exactness) << ", narrow "
+    INFO("scene " << i << ", checks " << o.max_checks << ", exactness " << int(o.exactness) << ", narrow "
                   << int(o.narrow_phase) << ", window " << o.window << ", " << one.set.size() << " rows");
     for (int threads : {2, 4, 4}) CHECK(same(one, ask(calls, scene, o, threads)));
     o.instruction_set = o.instruction_set == InstructionSet::scalar ? InstructionSet::automatic : InstructionSet::scalar;

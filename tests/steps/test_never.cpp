@@ -35,9 +35,9 @@ TEST_CASE("a pair that never touches does so at infinity", "[unit]") {
     options.exactness = level;
     for (const Query& query : {over_a_face(1, 0.5), over_a_face(1, 1), over_a_face(1, 2)}) {
       const Answers a = ask(query, options);
-      CHECK((a.query.outcome == Outcome::free && a.query.toi == INFINITY && a.query.step_limit == INFINITY));
+      CHECK((a.query.outcome == PairOutcome::free && a.query.toi == INFINITY && a.query.step_limit == INFINITY));
       CHECK((a.step.outcome == Outcome::free && a.step.step == 1 && a.step.toi == INFINITY));
-      CHECK((a.step.toi_hi == INFINITY && a.step.limiting.a == -1));
+      CHECK((a.step.toi_hi == INFINITY && !a.step.limiting));
       CHECK((a.set.size() == 0 && a.set.complete_until == INFINITY && a.free));
     }
   }
@@ -49,11 +49,11 @@ TEST_CASE("a pair that touches at the end does so at 1, and the step ends before
     Options options;
     options.exactness = level;
     const Answers a = ask(over_a_face(1, 0), options);
-    CHECK((a.query.outcome == Outcome::contact && a.query.toi <= 1 && a.query.toi > 0.99));
+    CHECK((a.query.outcome == PairOutcome::contact && a.query.toi <= 1 && a.query.toi > 0.99));
     CHECK((a.step.outcome == Outcome::contact && a.step.step < 1 && a.step.step > 0.99 &&
-           a.step.limiting.a == 0));
+           a.step.limiting && a.step.limiting->a == 0));
     CHECK((a.step.toi <= 1 && a.step.toi > 0.99));
-    CHECK((a.set.size() == 1 && a.set.toi[0] == a.step.toi && !a.free));
+    CHECK((a.set.size() == 1 && a.set[0].toi == a.step.toi && !a.free));
     if (level == Exactness::exact) CHECK((a.query.toi == 1 && a.step.toi == 1 && a.step.toi_hi == 1));
   }
 }
@@ -62,10 +62,10 @@ TEST_CASE("a pair that parts within its separation is met again at infinity, or 
   Options options;
   options.min_separation = 0.25;
   const Answers parts = ask(over_a_face(0.125, 1), options);
-  CHECK((parts.query.outcome == Outcome::initial_separating && parts.query.toi == 0));
+  CHECK((parts.query.outcome == PairOutcome::initial_separating && parts.query.toi == 0));
   CHECK(parts.query.step_limit == INFINITY);
   CHECK(parts.step.step == 1);
   REQUIRE(parts.set.size() == 1);
-  CHECK((parts.set.status[0] == Outcome::initial_separating && parts.set.toi[0] == 0));
-  CHECK(parts.set.step_limit[0] == INFINITY);
+  CHECK((parts.set[0].outcome == PairOutcome::initial_separating && parts.set[0].toi == 0));
+  CHECK(parts.set[0].step_limit == INFINITY);
 }

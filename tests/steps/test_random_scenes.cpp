@@ -16,7 +16,7 @@ namespace {
 std::string to_text(const Options& o) {
   std::ostringstream s;
   s << "tolerance " << o.tolerance.value_or(0) << ", relative " << o.relative_tolerance << ", separation "
-    << o.min_separation << ", norm " << int(o.norm) << ", certainty " << int(o.exactness) << ", checks "
+    << o.min_separation << ", norm " << int(o.norm) << ", exactness " << int(o.exactness) << ", checks "
     << o.max_checks << ", narrow " << int(o.narrow_phase) << ", broad " << int(o.broad_phase) << ", window "
     << o.window << ", passes " << o.touching_may_pass_through;
   return s.str();
@@ -35,9 +35,11 @@ struct More {
 
 void check_scene(const StepScene& scene, const Options& options, const More& what, Counts& counts) {
   Calls calls(scene);
-  if (what.points) calls.mesh().set_points(scene.points());
-  if (!what.thickness.empty()) calls.mesh().set_thickness(what.thickness);
-  calls.mesh().set_weld(what.weld);
+  CollisionRules rules;
+  if (what.points) rules.points = scene.points();
+  rules.thickness = what.thickness;
+  rules.weld = what.weld;
+  calls.mesh().set_rules(rules);
   const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, what.thickness, what.weld};
   const oracle::Truth first = SceneTruth(asked).first();
   ++counts.scenes, counts.contacts += first.collides, counts.initial += first.toi_hi == 0;
@@ -61,7 +63,7 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
   for (int i = 0; i < count; ++i) {
     const StepScene scene = make(random);
     Options options = random_options(scene, random);
-    More more{some_d_hat(scene, random), kKeep, scenes::coin(random), scenes::integer(random, 0, 4) == 0, {}};
+    More more{some_d_hat(scene, random), kGapShare, scenes::coin(random), scenes::integer(random, 0, 4) == 0, {}};
     if (scenes::coin(random)) more.gap_share = scenes::coin(random) ? 0 : scenes::uniform(random, 0, 0.99);
     if (scenes::integer(random, 0, 7) == 0 && options.norm == Norm::euclidean)
       options.min_separation = 0, more.thickness = random_thickness(scene, random);

@@ -145,9 +145,9 @@ TEST_CASE("a gap whose foot ties with a corner keeps its share", "[oracle][regre
   const Query query{kVertexFace, {{{0, 0, height}, f0, f1, f2}}, {{{0, 0, -height}, f0, f1, f2}}};
   check_all_calls(query, with_tolerance(1));  // half of the gap is within its reach
   const Eigen::MatrixXd x = positions(query.t0), dx = positions(query.t1) - x;
-  const LineSearchStep r = LineSearch(mesh_of(kVertexFace), x, dx, {}, 0.5).largest_step();
+  const LineSearchStep r = LineSearch(mesh_of(kVertexFace), x, dx, with_share({}, 0.5)).largest_step();
   CHECK_FALSE(r.gap_share_reduced);
-  const Query there{kVertexFace, {{{0, 0, height + r.result.step * dx(0, 2)}, f0, f1, f2}}, {}};
+  const Query there{kVertexFace, {{{0, 0, height + r.step * dx(0, 2)}, f0, f1, f2}}, {}};
   CHECK(oracle::compare_distance(there, 0, 0.5 * oracle::distance(query, 0).lo * (1 - 0x1p-20)) >= 0);
 }
 

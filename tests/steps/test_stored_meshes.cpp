@@ -21,7 +21,7 @@ constexpr int kPushes = 60;
 struct Bodies {
   Scene scene;         // at rest
   int first;           // rows of the first body; 0: there is one
-  bool fixed = false;  // the second body is static
+  bool is_static = false;  // the second body is static
 };
 
 Bodies some_bodies(Random& random) {
@@ -62,7 +62,7 @@ Eigen::MatrixXd aimed(const Bodies& bodies, const Eigen::MatrixXd& x, Random& ra
   const double far = scenes::power_of_ten(random, -4, 0.3), noise = scenes::coin(random) ? 0 : far;
   const Eigen::RowVector3d middle = x.colwise().mean();
   const Point step = scenes::plus({0, 0, -far}, scenes::point(random, scenes::coin(random) ? 0 : 0.5 * far));
-  for (Eigen::Index v = 0; v < (bodies.fixed ? bodies.first : x.rows()); ++v) {
+  for (Eigen::Index v = 0; v < (bodies.is_static ? bodies.first : x.rows()); ++v) {
     const Point own = scenes::point(random, 0.2 * noise);
     for (int a = 0; a < 3; ++a) {
       if (v < bodies.first) to(v, a) += step[std::size_t(a)];
@@ -114,12 +114,16 @@ Counts push_all(int meshes, std::uint64_t seed) {
   Counts counts;
   for (int i = 0; i < meshes; ++i) {
     Bodies bodies = some_bodies(random);
-    bodies.fixed = bodies.first > 0 && scenes::coin(random);
+    bodies.is_static = bodies.first > 0 && scenes::coin(random);
     const double offset = kOffsets[scenes::integer(random, 0, 5)];
     const Point where = scenes::point(random, offset);
     bodies.scene = scenes::translated(bodies.scene, {where[0], where[1], where[2]});
     Calls calls({bodies.scene.x_t0, bodies.scene.x_t0, onset::edges(bodies.scene.faces), bodies.scene.faces});
-    if (bodies.fixed) calls.mesh().set_static(below(bodies));
+    if (bodies.is_static) {
+      CollisionRules rules;
+      rules.static_vertices = below(bodies);
+      calls.mesh().set_rules(rules);
+    }
     if (!meets_itself(calls.mesh(), bodies.scene.x_t0).empty()) {
       ++counts.refused;
       continue;

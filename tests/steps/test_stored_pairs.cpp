@@ -134,7 +134,7 @@ bool push(const Calls& calls, Call call, const Query& wish, const Options& optio
   if (broken.empty()) return true;
   FAIL_CHECK(name(call) << ": " << broken << "\n  " << to_string(step.result.outcome) << ", step "
                         << step.result.step << ", rounding " << step.result.rounding << ", separation "
-                        << options.min_separation << ", certainty " << int(options.exactness)
+                        << options.min_separation << ", exactness " << int(options.exactness)
                         << ", tolerance " << options.relative_tolerance << "\n  " << to_text(motion));
   return false;
 }
@@ -222,14 +222,14 @@ TEST_CASE("a line search that is asked for less gives no more, and nothing less 
     const Query wish = aimed(kind, x, Aim(scenes::integer(random, 0, 4)), random);
     const Eigen::MatrixXd x_t0 = positions(wish.t0), dx = positions(wish.t1) - x_t0;
     const Query motion = with_end(wish, x_t0 + dx);
-    const LineSearch search(mesh_of(kind), x_t0, dx, some_options(0, random),
-                            scenes::uniform(random, 0, 0.9));
+    const Options o = some_options(0, random);
+    const LineSearch search(mesh_of(kind), x_t0, dx, with_share(o, scenes::uniform(random, 0, 0.9)));
     for (double upper : {1.0, 0.0, scenes::unit(random), scenes::power_of_ten(random, -12, 0), 1.0}) {
       const LineSearchStep r = search.largest_step(upper);
-      const double s = r.result.step;
-      INFO(to_text(motion) << ", upper " << upper << " -> " << s << " " << to_string(r.result.outcome));
+      const double s = r.step;
+      INFO(to_text(motion) << ", upper " << upper << " -> " << s << " " << to_string(r.outcome));
       CHECK((s >= 0 && s <= upper));
-      CHECK((r.result.outcome == Outcome::free) == (s == upper && r.result.limiting.a < 0));
+      CHECK((r.outcome == Outcome::free) == (s == upper && !r.limiting));
       for (oracle::Rounding how : oracle::kRoundings)
         if (s > 0)
           CHECK(std::string(oracle::broken_on_the_way(motion, s, oracle::stored(how, motion, s))) == "");

@@ -9,6 +9,7 @@
 #include "tests/oracle/within.hpp"
 #include "tests/scenes/families.hpp"
 #include "tests/src/support/one_pair.hpp"
+#include "tests/steps/support/calls.hpp"
 #include "tests/steps/support/ties_and_needles.hpp"
 
 using namespace onset;
@@ -53,7 +54,7 @@ bool keeps(const Query& query, const Kept& kept, double end, bool contact, Norm 
 
 std::string broken_by_query(const Query& query, const Options& o, const Kept& kept, Random& random) {
   const QueryResult r = scenes::ccd(query, o);
-  const bool initial = r.outcome == Outcome::initial_contact || r.outcome == Outcome::initial_separating;
+  const bool initial = r.outcome == PairOutcome::initial_contact || r.outcome == PairOutcome::initial_separating;
   if (!kept.beyond && !initial) return "starts within the separation, not said";
   if (kept.surely && (initial || r.toi == 0)) return "starts beyond the separation, and is stopped at once";
   if (r.step_limit > 0 && !keeps(query, kept, std::min(r.step_limit, 1.0), r.collides(), o.norm, random))
@@ -77,18 +78,17 @@ std::string broken_by_step(const Query& query, const Options& o, const Kept& kep
 std::string broken_by_search(const Query& query, const Options& o, const Kept& kept, double gap_share) {
   if (!kept.beyond) return {};
   const Eigen::MatrixXd x = positions(query.t0), dx = positions(query.t1) - x;
-  const LineSearchStep r = LineSearch(mesh_of(query.kind), x, dx, o, gap_share).largest_step();
-  const double gap = kept.start - o.min_separation, d = o.min_separation,
-               tolerance = r.result.stats.tolerance;
+  const LineSearchStep r = LineSearch(mesh_of(query.kind), x, dx, with_share(o, gap_share)).largest_step();
+  const double gap = kept.start - o.min_separation, d = o.min_separation, tolerance = r.stats.tolerance;
   const bool room = oracle::compare_distance(query, 0, d + 2 * r.rounding / (1 - gap_share), o.norm) > 0;
-  if (r.result.step == 0) return room ? "a search of 0 from a start beyond the separation" : "";
+  if (r.step == 0) return room ? "a search of 0 from a start beyond the separation" : "";
   if (room && (r.gap_share_reduced || !r.assured)) return "a share cut though there is room";
   const double left = std::min(r.gap_share * gap, tolerance) * (1 - 0x1p-30) - r.rounding;
   Query motion = query;
   const Eigen::MatrixXd x_t1 = x + dx;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = 0; k < 3; ++k) motion.t1[i][k] = x_t1(Eigen::Index(i), Eigen::Index(k));
-  const auto end = oracle::stored(oracle::Rounding::product, motion, r.result.step);
+  const auto end = oracle::stored(oracle::Rounding::product, motion, r.step);
   const bool kept_it = left <= 0 || oracle::compare_distance_at_rest(query.kind, end, d + left, o.norm) >= 0;
   return kept_it ? "" : "keeps less of its gap than reported";
 }

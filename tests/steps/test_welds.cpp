@@ -1,4 +1,4 @@
-// Mesh::set_weld: the copies of a seam's vertices count as one while they stay together, and as others when
+// CollisionRules::weld: the copies of a seam's vertices count as one while they stay together, and as others when
 // not.
 #include <map>
 #include <onset/onset.hpp>
@@ -32,9 +32,9 @@ Scene cut(const Scene& scene) {
 }
 
 Mesh welded(const Scene& scene) {
-  Mesh mesh(scene.x_t0, scene.faces);
-  mesh.set_weld(true);
-  return mesh;
+  CollisionRules rules;
+  rules.weld = true;
+  return Mesh(scene.x_t0, scene.faces, rules);
 }
 
 // Cloth that folds onto itself, or falls onto a cube.
@@ -92,7 +92,7 @@ TEST_CASE("a welded seam that moves, turns and stretches as one blocks no call",
   CHECK(compute_collision_free_stepsize(mesh, x, to, o).outcome == Outcome::free);
   CHECK(construct_active_set(mesh, x, to, o).size() == 0);
   CHECK(is_step_collision_free(mesh, x, to, o));
-  CHECK(LineSearch(mesh, x, Eigen::MatrixXd(to - x), o).largest_step().result.step == 1);
+  CHECK(LineSearch(mesh, x, Eigen::MatrixXd(to - x), o).largest_step().step == 1);
   const Candidates list = compute_candidates(mesh, x, to, o);
   CHECK(compute_collision_free_stepsize(mesh, list, x, to, o, 0.2).step == 1);
   const ClosePairs close = close_pairs(mesh, x, 0.01, o);
@@ -122,9 +122,12 @@ TEST_CASE("a weld is taken back, and copies of a mesh have their own", "[unit]")
     return compute_collision_free_stepsize(m, parts.x_t0, parts.x_t1).step;
   };
   CHECK(step(mesh) == 0);
-  mesh.set_weld(true);
+  CollisionRules rules;
+  rules.weld = true;
+  mesh.set_rules(rules);
   const Mesh copy = mesh;
   CHECK(step(mesh) == 1);
-  mesh.set_weld(false);
+  rules.weld = false;
+  mesh.set_rules(rules);
   CHECK((step(mesh) == 0 && step(copy) == 1));
 }

@@ -38,8 +38,7 @@ void whole_steps(const Scene& s, const onset::Mesh& mesh) {
 
   const onset::ActiveSet active = onset::construct_active_set(mesh, s.x0, s.x1);
   expect(active.size() > 0, "the active set has contacts");
-  for (std::size_t i = 0; i < active.size(); ++i)
-    std::printf("contact %d %d %d %a\n", int(active.kind[i]), active.a[i], active.b[i], active.toi[i]);
+  for (const onset::Contact& c : active) std::printf("contact %d %d %d %a\n", int(c.kind), c.a, c.b, c.toi);
   const onset::Candidates pairs = onset::compute_candidates(mesh, s.x0, s.x1);
   expect(pairs.vertex_face.size() + pairs.edge_edge.size() >= active.size(), "contacts are candidates");
 }
@@ -47,8 +46,8 @@ void whole_steps(const Scene& s, const onset::Mesh& mesh) {
 void line_search(const Scene& s, const onset::Mesh& mesh) {
   const onset::LineSearch search(mesh, s.x0, s.x1 - s.x0);
   const onset::LineSearchStep step = search.largest_step();
-  expect(step.result.step < 0.5 && step.result.step > 0.25, "the line search keeps a share of the gap");
-  std::printf("line search %a\n", step.result.step);
+  expect(step.step < 0.5 && step.step > 0.25, "the line search keeps a share of the gap");
+  std::printf("line search %a\n", step.step);
 }
 
 void not_a_number(const Scene& s, const onset::Mesh& mesh) {

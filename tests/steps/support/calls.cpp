@@ -13,12 +13,16 @@ Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::Matr
   return x_t0 + dx;
 }
 
+LineSearchOptions with_share(const Options& options, double gap_share) {
+  LineSearchOptions o = options;
+  o.gap_share = gap_share;
+  return o;
+}
+
 CallStep Calls::search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
                        const Options& options, double gap_share) const {
-  const LineSearchStep r = LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), options, gap_share).largest_step();
-  CallStep step{r.result, r.gap_share, r.result.stats.tolerance, true, {}, INFINITY};
-  step.result.rounding = r.rounding;
-  return step;
+  const LineSearchStep r = LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), with_share(options, gap_share)).largest_step();
+  return {r, r.gap_share, r.stats.tolerance, true, {}, INFINITY};
 }
 
 CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,

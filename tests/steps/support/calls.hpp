@@ -1,7 +1,7 @@
 // The calls that give a step, asked in one way.
 #pragma once
 
-#include <onset/ipc.hpp>
+#include <onset/compat/ipc.hpp>
 #include <onset/onset.hpp>
 #include <optional>
 
@@ -16,12 +16,12 @@ constexpr Call kCalls[] = {Call::whole, Call::line_search, Call::listed,
 const char* name(Call call);
 
 // The share of its gap that the calls with a default for it let every pair keep.
-constexpr double kKeep = 0.2;
+constexpr double kGapShare = 0.2;
 
 struct CallStep {
   StepResult result;
-  double gap_share = 0;   // the share that every pair that is looked at keeps
-  double reach = 0;  // a pair that stays farther beyond its separation than this may keep no more than this
+  double gap_share = 0;  // the share that every pair that is looked at keeps
+  double reach = 0;      // a pair that stays farther beyond its separation than this may keep no more than this
   bool says_outcome = true;        // false: only the step is known
   std::optional<Candidates> only;  // the pairs that are looked at, where these are not all
   double known = INFINITY;         // of pairs that are not near it is only known that their gap is so much
@@ -40,10 +40,10 @@ class Calls {
   // That of the call: the adapter tests points against edges and each other as well.
   const Mesh& mesh(Call call) const { return is_adapter(call) ? adapter_.onset_mesh() : mesh_; }
   static bool is_adapter(Call call) { return call == Call::adapter || call == Call::filtered; }
-  // d_hat: of the close pairs, > 0; keep: the share of all calls that have one. The adapter takes a
+  // d_hat: of the close pairs, > 0; gap_share: of all calls that have one. The adapter takes a
   // tolerance, a number of checks and a Euclidean separation.
   CallStep ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Options& options,
-               double d_hat, double gap_share = kKeep) const;
+               double d_hat, double gap_share = kGapShare) const;
 
  private:
   CallStep search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
@@ -52,6 +52,9 @@ class Calls {
   Mesh mesh_;
   ipc::CollisionMesh adapter_, filtered_;
 };
+
+// Options of a line search that keeps this share.
+LineSearchOptions with_share(const Options& options, double gap_share);
 
 // Where the motion that the call is told of ends: a line search forms its end from a direction.
 Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1);

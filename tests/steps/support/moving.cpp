@@ -82,7 +82,7 @@ std::string stuck(const Asked& asked, const StepResult& r) {
     const double d = asked.separation(kind, v), gap = std::max(r.rounding, slack(motion, d) / 2);
     return oracle::boxes_apart(at_rest, d + 2 * gap) || starts_beyond(motion, d, gap, asked.options.norm);
   };
-  bool near = r.limiting.a >= 0 && !has_room(r.limiting.kind, r.limiting.vertices);
+  bool near = r.limiting && !has_room(r.limiting->kind, r.limiting->vertices);
   asked.for_pairs(
       [&](PairKind kind, int, int, const std::array<int, 4>& v) { near = near || !has_room(kind, v); });
   return near ? "" : "a step of 0 though every gap is more than twice the rounding";

@@ -19,10 +19,11 @@ static std::string wrong_start(const Asked& asked, const SceneTruth& truth, cons
   if (r.outcome != Outcome::initial_contact)
     return std::string("touches at the start, but the outcome is ") + to_string(r.outcome);
   if (r.toi != 0) return "touches at the start, but toi is not 0";
-  const Key named{r.limiting.kind, r.limiting.a, r.limiting.b};
+  if (!r.limiting) return "a pair that touches limits, but none is named";
+  const Key named{r.limiting->kind, r.limiting->a, r.limiting->b};
   if (first->key < named) return "the limiting pair is not the first that touches";
   const bool blocks = std::any_of(truth.contacts.begin(), truth.contacts.end(), [&](const PairTruth& pair) {
-    return same_pair(r.limiting, pair.key) && pair.initial();
+    return same_pair(*r.limiting, pair.key) && pair.initial();
   });
   return blocks ? "" : "the limiting pair does not touch";
 }
@@ -38,7 +39,7 @@ static std::string wrong_toi(const Asked& asked, const SceneTruth& truth, const 
 }
 
 static std::string wrong_outcome(const SceneTruth& truth, const StepResult& r, bool bounded) {
-  const bool named = r.limiting.a >= 0;
+  const bool named = r.limiting.has_value();
   switch (r.outcome) {
     case Outcome::free:
       if (named) return "free, but a pair limits";
@@ -52,8 +53,6 @@ static std::string wrong_outcome(const SceneTruth& truth, const StepResult& r, b
     case Outcome::below_rounding:
       if (!named) return "a pair limits, but none is named";
       return r.step < 1 ? "" : "a pair limits, but the step is 1";
-    case Outcome::initial_separating:
-      return truth.initial() ? "" : "called separating, but starts apart";
     default:
       return "an outcome of bad positions or budgets";
   }
@@ -77,15 +76,15 @@ std::string wrong_report(const Asked& asked, const SceneTruth& truth, const Step
   return wrong.empty() ? wrong_toi(asked, truth, r, call) : wrong;
 }
 
-static std::string wrong_row(const Asked& asked, const PairTruth& pair, const ActiveSet& set, std::size_t i) {
-  if (!(set.toi[i] <= pair.within.toi_lo)) return "a row is late";
-  if (set.toi_hi[i] < pair.within.toi_hi) return "toi_hi of a row is early";
+static std::string wrong_row(const Asked& asked, const PairTruth& pair, const Contact& row) {
+  if (!(row.toi <= pair.within.toi_lo)) return "a row is late";
+  if (row.toi_hi < pair.within.toi_hi) return "toi_hi of a row is early";
   const bool starts =
-      set.status[i] == Outcome::initial_contact || set.status[i] == Outcome::initial_separating;
+      row.outcome == PairOutcome::initial_contact || row.outcome == PairOutcome::initial_separating;
   if (pair.initial() && !starts) return "a contact at the start is not called so";
   if (!pair.touching || asked.options.touching_may_pass_through) return {};
-  if (set.status[i] != Outcome::initial_contact) return "a pair that touches does not block";
-  return set.degenerate[i] ? "" : "the normal of a touching pair is not called degenerate";
+  if (row.outcome != PairOutcome::initial_contact) return "a pair that touches does not block";
+  return row.degenerate ? "" : "the normal of a touching pair is not called degenerate";
 }
 
 std::string wrong_set(const Asked& asked, const SceneTruth& truth, const ActiveSet& set) {
@@ -98,11 +97,11 @@ std::string wrong_set(const Asked& asked, const SceneTruth& truth, const ActiveS
       continue;
     }
     ++found;
-    if (std::string wrong = wrong_row(asked, pair, set, i); !wrong.empty()) return wrong + which;
+    if (std::string wrong = wrong_row(asked, pair, set[i]); !wrong.empty()) return wrong + which;
   }
   if (decides_exactly(asked) && found < set.size()) return "a row that is no contact";
-  for (std::size_t i = 0; i < set.size(); ++i)
-    if (!(set.toi[i] >= 0 && set.toi[i] <= 1)) return "toi of a row outside [0, 1]";
+  for (const Contact& row : set)
+    if (!(row.toi >= 0 && row.toi <= 1)) return "toi of a row outside [0, 1]";
   const bool whole = asked.options.window == INFINITY && set.outcome != Outcome::out_of_memory;
   if (whole && set.complete_until != INFINITY) return "not complete without a reason";
   return {};
@@ -110,7 +109,7 @@ std::string wrong_set(const Asked& asked, const SceneTruth& truth, const ActiveS
 
 std::string disagreement(const StepResult& r, const ActiveSet& set, bool free) {
   double limit = INFINITY;
-  for (std::size_t i = 0; i < set.size(); ++i) limit = std::min(limit, set.step_limit[i]);
+  for (const Contact& row : set) limit = std::min(limit, row.step_limit);
   if (r.step > limit) return "the step is beyond a row's step_limit";
   if (r.toi != limit) return "toi is not the least step_limit of the active set";
   if (r.outcome == Outcome::free && !free) return "the step is free, is_step_collision_free is false";
