@@ -10,8 +10,8 @@ for dir; do includes="$includes -isystem $dir"; done
 preprocessed=$(mktemp)
 trap 'rm -f "$preprocessed"' EXIT
 count=0
-for header in "$source"/include/onset/*.hpp; do
-  name=onset/$(basename "$header")
+for header in "$source"/include/onset/*.hpp "$source"/include/onset/compat/*.hpp; do
+  name=${header#"$source"/include/}
   for std in c++17 c++20; do
     # Twice: it is guarded against itself.
     printf '#include <%s>\n#include <%s>\n' "$name" "$name" |

@@ -2,7 +2,7 @@
 // barrier: none of length 0, and no penetration on the way by exact arithmetic nor at its stations by FCL.
 #include <cmath>
 
-#include "readme_newton.hpp"
+#include "documented.hpp"
 #include "tests/catch.hpp"
 #include "tests/fcl/bodies.hpp"
 #include "tests/oracle/oracle.hpp"

@@ -1,8 +1,9 @@
-// Runs the README's Newton loop (readme_newton.hpp is cut out of README.md) on a cloth that falls onto a
-// floor.
+// Runs the C++ of the documents (documented.hpp and documented_fragments.hpp are cut out of them): the README's Newton loop on a
+// cloth that falls onto a floor, fragments on a scene of their own.
 #include <cmath>
 
-#include "readme_newton.hpp"
+#include "documented.hpp"
+#include "documented_fragments.hpp"
 #include "tests/catch.hpp"
 
 namespace {
@@ -55,4 +56,24 @@ TEST_CASE("the README's Newton loop converges to rest above the floor", "[unit]"
   REQUIRE((x + energy.newton_direction(x, {})).col(2).minCoeff() < -0.5);
   const Eigen::MatrixXd rest = newton(energy, onset::Mesh(x, F), x, 1e-3);
   for (Eigen::Index v = 4; v < rest.rows(); ++v) CHECK(std::abs(rest(v, 2) - energy.rest_height()) < 1e-9);
+}
+
+TEST_CASE("the README's rules are set, and hold", "[unit]") {
+  README_1 block;
+  REQUIRE(block.report.touching.size() == 1);
+  const std::int64_t before = block.mesh.filter_counts().vertex_face.may_meet();
+  block.run();
+  const onset::Mesh& mesh = block.mesh;
+  CHECK((mesh.num_bodies() == 5 && mesh.num_points() == 1 && mesh.num_full_vertices() == 20));
+  CHECK(onset::check(mesh, block.x).touching.empty());
+  CHECK(mesh.filter_counts().vertex_face.may_meet() < before);
+}
+
+TEST_CASE("every fragment of C++ in the documents runs", "[unit]") {
+  int count = 0;
+  for_all_fragments([&](auto block) {
+    CHECK_NOTHROW(block.run());
+    ++count;
+  });
+  CHECK(count >= 1);
 }

@@ -64,7 +64,7 @@ TEST_CASE("a pair that parts within its separation is met again at infinity, or 
   const Answers parts = ask(over_a_face(0.125, 1), options);
   CHECK((parts.query.outcome == PairOutcome::initial_separating && parts.query.toi == 0));
   CHECK(parts.query.step_limit == INFINITY);
-  CHECK(parts.step.step == 1);
+  CHECK((parts.step.step == 1 && parts.step.outcome == Outcome::free && !parts.step.limiting));
   REQUIRE(parts.set.size() == 1);
   CHECK((parts.set[0].outcome == PairOutcome::initial_separating && parts.set[0].toi == 0));
   CHECK(parts.set[0].step_limit == INFINITY);

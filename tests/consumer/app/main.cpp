@@ -1,5 +1,7 @@
 // Calls everything that onset.hpp offers on a scene with a known answer, and prints the results bit by bit:
 // the output is the same however this program and the library were built.
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -41,6 +43,21 @@ void whole_steps(const Scene& s, const onset::Mesh& mesh) {
   for (const onset::Contact& c : active) std::printf("contact %d %d %d %a\n", int(c.kind), c.a, c.b, c.toi);
   const onset::Candidates pairs = onset::compute_candidates(mesh, s.x0, s.x1);
   expect(pairs.vertex_face.size() + pairs.edge_edge.size() >= active.size(), "contacts are candidates");
+  std::atomic<std::size_t> visited{0};
+  onset::visit_candidates(mesh, s.x0, s.x1, [&](onset::PairKind, const std::array<int, 2>*, std::size_t n) { visited += n; });
+  expect(onset::count_candidates(mesh, s.x0, s.x1).counts.total() == pairs.counts.total(), "candidates are counted");
+  expect(std::int64_t(visited) == pairs.counts.total(), "candidates are visited");
+}
+
+void rules(const Scene& s) {
+  onset::Mesh mesh;
+  mesh = onset::Mesh(s.x0, s.F);
+  onset::CollisionRules rules;
+  rules.bodies = mesh.components();
+  rules.excluded_bodies = {{0, 1}};
+  mesh.set_rules(rules);
+  expect(onset::is_step_collision_free(mesh, s.x0, s.x1), "bodies that are excluded pass through each other");
+  expect(mesh.rules().excluded_bodies.size() == 1, "a mesh tells its rules");
 }
 
 void line_search(const Scene& s, const onset::Mesh& mesh) {
@@ -80,6 +97,7 @@ int main() {
   const onset::Mesh mesh(scene.x0, scene.F);
   expect(edges_of_a_tetrahedron() == 6, "edges, called from a second translation unit");
   whole_steps(scene, mesh);
+  rules(scene);
   line_search(scene, mesh);
   not_a_number(scene, mesh);
   single_queries();
