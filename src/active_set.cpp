@@ -40,18 +40,18 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
   ActiveSet set;
   in_arena(options.threads, [&] {
     Budget budget(options);
-    Scene scene(mesh, x_t0, x_t1, options, Scene::Use::contacts, set.stats, budget);
-    set.outcome = scene.motion.status;
-    set.vertex = scene.motion.bad_vertex;
+    StepSetup setup(mesh, x_t0, x_t1, options, StepSetup::Use::contacts, set.stats, budget);
+    set.outcome = setup.motion.status;
+    set.vertex = setup.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
-    TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, Collect::all, budget, set.stats) : TraversalResult{};
-    const double begun = scene.clock.seconds();
+    TraversalResult traversal = setup.broad ? find_contacts(mesh, setup, options, Collect::all, budget, set.stats) : TraversalResult{};
+    const double begun = setup.clock.seconds();
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);
     if (budget.outcome() != Outcome::free) set.stats.looked_at = budget.done();
-    fill_contacts(mesh, scene.motion, options.instruction_set, traversal.found, set);
+    fill_contacts(mesh, setup.motion, options.instruction_set, traversal.found, set);
     if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
-    set.stats.seconds_total = scene.clock.seconds();
+    set.stats.seconds_total = setup.clock.seconds();
     set.stats.seconds_contacts = set.stats.seconds_total - begun;
   });
   return set;

@@ -19,13 +19,13 @@ struct Use {
   bool list = false;
 };
 
-// Takes the candidates of one scene.
+// Takes the candidates of one setup.
 class CandidateList {
  public:
-  CandidateList(const MeshData& mesh, const Scene& scene, const Use& use, const Options& options, Budget& budget,
+  CandidateList(const MeshData& mesh, const StepSetup& setup, const Use& use, const Options& options, Budget& budget,
                 Candidates& result)
       : mesh_(mesh),
-        scene_(scene),
+        setup_(setup),
         use_(use),
         budget_(budget),
         result_(result),
@@ -40,7 +40,7 @@ class CandidateList {
       count += task.count;
       listed.insert(listed.end(), task.listed.begin(), task.listed.end());
     };
-    visit_pairs(*scene_.broad, kind, kBlocksATask, Task{}, visit, merge, [&] { return budget_.spent(); });
+    visit_pairs(*setup_.broad, kind, kBlocksATask, Task{}, visit, merge, [&] { return budget_.spent(); });
     parallel_sort(listed.begin(), listed.end(), [](const auto& p, const auto& q) { return p < q; });
   }
   // Nothing is listed any more then.
@@ -58,7 +58,7 @@ class CandidateList {
     const std::size_t before = out.size();
     const bool lists = use_.list ? room_ >= 0 : use_.visitor != nullptr;
     for (std::size_t i = 0; i < n; ++i) {
-      if (mesh_.weld && is_seam(scene_.motion, kind, pair_vertices(mesh_, kind, pairs[i]))) continue;
+      if (mesh_.weld && is_seam(setup_.motion, kind, pair_vertices(mesh_, kind, pairs[i]))) continue;
       ++task.count;
       if (lists) out.push_back({pairs[i].a, pairs[i].b});
     }
@@ -69,7 +69,7 @@ class CandidateList {
   }
 
   const MeshData& mesh_;
-  const Scene& scene_;
+  const StepSetup& setup_;
   const Use use_;
   Budget& budget_;
   Candidates& result_;
@@ -82,14 +82,14 @@ Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& 
   Candidates c;
   in_arena(options.threads, [&] {
     Budget budget(options);
-    Scene scene(mesh, x_t0, x_t1, options, Scene::Use::candidates, c.stats, budget);
-    c.outcome = scene.motion.status;
-    c.vertex = scene.motion.bad_vertex;
+    StepSetup setup(mesh, x_t0, x_t1, options, StepSetup::Use::candidates, c.stats, budget);
+    c.outcome = setup.motion.status;
+    c.vertex = setup.motion.bad_vertex;
     if (c.outcome != Outcome::free) return;
-    CandidateList list(mesh.data(), scene, use, options, budget, c);
-    if (scene.broad) {
-      budget.begin_traversal(scene.broad->blocks(PairKind::vertex_face) +
-                             scene.broad->blocks(PairKind::edge_edge));
+    CandidateList list(mesh.data(), setup, use, options, budget, c);
+    if (setup.broad) {
+      budget.begin_traversal(setup.broad->blocks(PairKind::vertex_face) +
+                             setup.broad->blocks(PairKind::edge_edge));
       list.take(PairKind::vertex_face);
       list.take(PairKind::edge_edge);
     }
@@ -97,7 +97,7 @@ Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& 
     if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = {};
     if (budget.outcome() != Outcome::free) c.stats.looked_at = budget.done();
     c.stats.swept = c.counts;
-    c.stats.seconds_broad = c.stats.seconds_total = scene.clock.seconds();
+    c.stats.seconds_broad = c.stats.seconds_total = setup.clock.seconds();
   });
   return c;
 }

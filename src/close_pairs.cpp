@@ -15,17 +15,17 @@ ClosePairs close_pairs(const Mesh& mesh, const Positions& x, double d_hat, const
   in_arena(options.threads, [&] {
     Stats stats;
     Budget budget(options);
-    const Scene scene(mesh, x, x, options, Scene::Use::close, stats, budget, d_hat);
-    r.outcome = scene.motion.status;
-    r.vertex = scene.motion.bad_vertex;
-    if (r.outcome == Outcome::free && !scene.broad) r.outcome = budget.outcome();
+    const StepSetup setup(mesh, x, x, options, StepSetup::Use::close, stats, budget, d_hat);
+    r.outcome = setup.motion.status;
+    r.vertex = setup.motion.bad_vertex;
+    if (r.outcome == Outcome::free && !setup.broad) r.outcome = budget.outcome();
     if (r.outcome != Outcome::free) return;
     static_assert(kMotionStride == 8, "a vertex's two ends are four doubles each");
     std::vector<double> at(std::size_t(mesh.num_vertices()) * 4);
-    for (int v = 0; v < scene.motion.num_vertices; ++v)
-      for (int a = 0; a < 3; ++a) at[std::size_t(4 * v + a)] = scene.motion.t0(v)[a];
-    r.pairs = find_close(*scene.broad, {mesh, at.data(), d_hat, 0, options});
-    r.seconds = scene.clock.seconds();
+    for (int v = 0; v < setup.motion.num_vertices; ++v)
+      for (int a = 0; a < 3; ++a) at[std::size_t(4 * v + a)] = setup.motion.t0(v)[a];
+    r.pairs = find_close(*setup.broad, {mesh, at.data(), d_hat, 0, options});
+    r.seconds = setup.clock.seconds();
   });
   return r;
 }

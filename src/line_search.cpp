@@ -42,17 +42,17 @@ struct LineSearch::Impl {
   Mesh mesh;
   LineSearchOptions options;
   double rounding = 0;
-  std::unique_ptr<Scene> scene;  // its motion; the tree goes once the pairs are held, and stays where they are too many
+  std::unique_ptr<StepSetup> setup;  // its motion; the tree goes once the pairs are held, and stays where they are too many
   std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
   StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
   PairList pairs, near;         // that may limit a step; that may come within d_hat on the way
 
   NarrowPhaseInput input() const {
-    return stored_step_input(mesh.data(), scene->motion, start.stats, options, options.gap_share, rounding);
+    return stored_step_input(mesh.data(), setup->motion, setup->accuracy, options, options.gap_share, rounding);
   }
   bool fill(Budget& budget);
   const PairSource& source(const PairList& list) const {
-    return scene->broad ? static_cast<const PairSource&>(*scene->broad) : list;
+    return setup->broad ? static_cast<const PairSource&>(*setup->broad) : list;
   }
   std::vector<double> at(double step) const;
 };
@@ -64,18 +64,18 @@ bool LineSearch::Impl::fill(Budget& budget) {
   const std::int64_t most = options.memory_limit / std::int64_t(sizeof(IdPair));
   const NarrowPhase narrow(input());
   std::vector<CulledList> lists{{narrow, pairs}};
-  if (options.d_hat == 0) return cull_into(*scene->broad, lists, most, budget);
+  if (options.d_hat == 0) return cull_into(*setup->broad, lists, most, budget);
   Options beyond = options;
   beyond.min_separation = euclidean_reach(mesh.data(), options, options.d_hat, rounding);
   beyond.norm = Norm::euclidean;
-  const NarrowPhase far({mesh.data(), scene->motion, start.stats.tolerance, start.stats.extent, beyond});
+  const NarrowPhase far({mesh.data(), setup->motion, setup->accuracy.tolerance, setup->accuracy.extent, beyond});
   lists.push_back({far, near});
-  return cull_into(*scene->broad, lists, most, budget);
+  return cull_into(*setup->broad, lists, most, budget);
 }
 
 // The positions that x_t0 + step dx rounds to, 4 doubles a vertex, in the motion's order of axes.
 std::vector<double> LineSearch::Impl::at(double step) const {
-  const Motion& m = scene->motion;
+  const Motion& m = setup->motion;
   std::vector<double> x(std::size_t(m.num_vertices) * 4);
   for (int v = 0; v < m.num_vertices; ++v)
     for (std::size_t a = 0; a < 3; ++a)
@@ -96,16 +96,16 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
   in_arena(options.threads, [&] {
     const Positions end(x_t1.data(), x_t0.rows());
     Budget budget(h.options);
-    h.scene = std::make_unique<Scene>(h.mesh, x_t0, end, h.options, Scene::Use::stored_step, h.start.stats, budget,
+    h.setup = std::make_unique<StepSetup>(h.mesh, x_t0, end, h.options, StepSetup::Use::stored_step, h.start.stats, budget,
                                       options.d_hat);
-    h.start.outcome = h.scene->motion.status;
-    h.start.vertex = h.scene->motion.bad_vertex;
+    h.start.outcome = h.setup->motion.status;
+    h.start.vertex = h.setup->motion.bad_vertex;
     if (h.start.outcome != Outcome::free) return;
-    h.rounding = h.scene->rounding;
+    h.rounding = h.setup->rounding;
     h.start.rounding = reported_rounding(h.rounding);
-    const bool fits = h.scene->broad && h.fill(budget);
+    const bool fits = h.setup->broad && h.fill(budget);
     h.start.outcome = budget.outcome();
-    if (fits) h.scene->give_back_broad();
+    if (fits) h.setup->give_back_broad();
   });
 }
 LineSearch::~LineSearch() = default;

@@ -18,15 +18,15 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
                          const Options& options, Collect collect) {
   StepResult r;
   Budget budget(options);
-  const Scene::Use use = collect == Collect::first ? Scene::Use::stored_step : Scene::Use::contacts;
-  Scene scene(mesh, x_t0, x_t1, options, use, r.stats, budget);
-  r.outcome = scene.motion.status;
-  r.vertex = scene.motion.bad_vertex;
+  const StepSetup::Use use = collect == Collect::first ? StepSetup::Use::stored_step : StepSetup::Use::contacts;
+  StepSetup setup(mesh, x_t0, x_t1, options, use, r.stats, budget);
+  r.outcome = setup.motion.status;
+  r.vertex = setup.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
-  const TraversalResult traversal = scene.broad ? find_contacts(mesh, scene, options, collect, budget, r.stats) : TraversalResult{};
+  const TraversalResult traversal = setup.broad ? find_contacts(mesh, setup, options, collect, budget, r.stats) : TraversalResult{};
   limit_step(mesh, traversal, budget, 1, 1, r);
-  r.rounding = reported_rounding(scene.rounding);
-  r.stats.seconds_total = scene.clock.seconds();
+  r.rounding = reported_rounding(setup.rounding);
+  r.stats.seconds_total = setup.clock.seconds();
   return r;
 }
 

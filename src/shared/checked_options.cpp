@@ -47,13 +47,19 @@ double absolute_tolerance(const Options& options, double extent) {
   return options.tolerance ? *options.tolerance : std::max(options.relative_tolerance * extent, 0x1p-1074);
 }
 
-void describe_accuracy(const Motion& motion, const Extents& extents, const Options& options, Stats& stats) {
-  stats.extent = extents.largest();
-  stats.tolerance = absolute_tolerance(options, stats.extent);
-  for (int a = 0; a < 3; ++a)  // 8u R + 4 eta: covers corners evaluated at any time
-    stats.error_bound[std::size_t(motion.axes[std::size_t(a)])] =
-        0x1p-50 * std::max(extents.vertex_face[std::size_t(a)], extents.edge_edge[std::size_t(a)]) +
-        4 * 0x1p-1074;
+Accuracy accuracy_of(const MeshData& mesh, const Motion& motion, const Options& options) {
+  const Extents extents = corner_extents(mesh, motion, largest_separation(mesh, options));
+  Accuracy r;
+  r.extent = extents.largest();
+  r.tolerance = absolute_tolerance(options, r.extent);
+  for (std::size_t a = 0; a < 3; ++a)  // 8u R + 4 eta: covers corners evaluated at any time
+    r.error_bound[std::size_t(motion.axes[a])] =
+        0x1p-50 * std::max(extents.vertex_face[a], extents.edge_edge[a]) + 4 * 0x1p-1074;
+  return r;
+}
+
+void note(const Accuracy& accuracy, Stats& stats) {
+  stats.tolerance = accuracy.tolerance, stats.extent = accuracy.extent, stats.error_bound = accuracy.error_bound;
 }
 
 }  // namespace onset

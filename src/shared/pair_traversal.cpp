@@ -271,9 +271,9 @@ TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narro
   return result;
 }
 
-NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Stats& stats,
+NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Accuracy& accuracy,
                                    const Options& options, double gap_share, double rounding) {
-  NarrowPhaseInput r{mesh, motion, stats.tolerance, stats.extent, options};
+  NarrowPhaseInput r{mesh, motion, accuracy.tolerance, accuracy.extent, options};
   r.stored = true;
   r.gap_share = gap_share;
   r.rounding = rounding;

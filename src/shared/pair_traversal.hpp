@@ -15,6 +15,7 @@
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/budget.hpp"
+#include "src/shared/checked_options.hpp"
 
 namespace onset {
 
@@ -64,7 +65,7 @@ TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narro
                     Budget& budget, std::size_t stride = 1, const TraversalBounds& bounds = {});
 
 // For steps that are stored, of pairs that each keep the share `gap_share` of their gap. rounding: rounding_of_distances(motion).
-NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Stats& stats,
+NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, const Accuracy& accuracy,
                                    const Options& options, double gap_share, double rounding);
 
 // When a pair that is reported has surely touched, as far as is known: exact times may move a toi up to there.

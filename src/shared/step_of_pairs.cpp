@@ -21,10 +21,10 @@ StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList&
   r.stats.instruction_set = to_string(resolve_instruction_set(options.instruction_set));
   r.stats.broad_phase = "listed";
   if (r.outcome != Outcome::free) return r;
-  describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options,
-                    r.stats);
+  const Accuracy accuracy = accuracy_of(data, motion, options);
+  note(accuracy, r.stats);
   const double rounding = rounding_of_distances(motion);
-  const NarrowPhase narrow(stored_step_input(data, motion, r.stats, options, gap_share, rounding));
+  const NarrowPhase narrow(stored_step_input(data, motion, accuracy, options, gap_share, rounding));
   const TraversalResult traversal = traverse_pairs(pairs, narrow, Collect::first, 1, budget);
   copy_counts(traversal, r.stats);
   limit_step(mesh, traversal, budget, upper, 1, r);

@@ -46,19 +46,19 @@ std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const Broad
 
 }  // namespace
 
-void Scene::give_back_broad() {
+void StepSetup::give_back_broad() {
   if (broad && pool_) pool_->give_back(slot_, std::move(broad));
   broad.reset();
 }
 
-Scene::~Scene() {
+StepSetup::~StepSetup() {
   give_back_broad();
   if (motion.rows_last) motion.static_part->give_back(motion.axes, std::move(motion.x));
 }
 
-void Scene::widen(double by) { tree->inflation = (tree->inflation + std::max(by, 0.0)) * (1 + 0x1p-50); }
+void StepSetup::widen(double by) { tree->inflation = (tree->inflation + std::max(by, 0.0)) * (1 + 0x1p-50); }
 
-Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use,
+StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use,
              Stats& stats, Budget& budget, double d_hat) {
   const MeshData& data = mesh.data();
   motion = make_motion(data, x_t0, x_t1);
@@ -67,8 +67,9 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
   stats.instruction_set = to_string(resolve_instruction_set(options.instruction_set));
   if (motion.status != Outcome::free) return;
   const BoxTest test = use == Use::candidates ? BoxTest::swept : cheaper_box_test(data, motion);
-  describe_accuracy(motion, corner_extents(data, motion, largest_separation(data, options)), options, stats);
-  reach = reported_within(stats.tolerance, stats.extent);
+  accuracy = accuracy_of(data, motion, options);
+  note(accuracy, stats);
+  reach = reported_within(accuracy.tolerance, accuracy.extent);
   // With a separation, widened boxes round, and by how much depends on where the scene lies. Wider by the
   // tolerance, boxes that just miss belong to pairs farther apart than any that is reported, unless it spends
   // its checks: results do not depend on that rounding.

@@ -9,6 +9,7 @@
 #include "onset/mesh.hpp"
 #include "scene/motion/storing.hpp"
 #include "src/shared/budget.hpp"
+#include "src/shared/checked_options.hpp"
 
 namespace onset {
 
@@ -17,7 +18,7 @@ namespace onset {
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test);
 
-struct Scene {
+struct StepSetup {
   // contacts: pairs of the exact motion. stored_step: also pairs that storing a position could close. candidates: the swept boxes of
   // these, for a caller who keeps them. close: as contacts, out to a distance.
   enum class Use { contacts, stored_step, candidates, close };
@@ -28,6 +29,7 @@ struct Scene {
   // The candidates of the whole step for contacts of the exact motion, and those that `broad` was made for; it may since have
   // shrunk to t_max.
   std::optional<BroadPhaseInput> whole, tree;
+  Accuracy accuracy;
   double rounding = 0;  // rounding_of_distances(motion), where the use asks for it
   double reach = 0;     // model length: how far beyond what it must keep a pair can be reported that has checks left
   Clock clock;
@@ -35,9 +37,9 @@ struct Scene {
   // Fills the statistics that are known before any pair is. No broad phase is made where the budget is spent.
   // d_hat > 0: boxes reach as far as pairs of a distance set of d_hat, and at least of the tolerance, can be
   // apart, positions rounded to doubles included.
-  Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use, Stats& stats,
+  StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use, Stats& stats,
         Budget& budget, double d_hat = 0);
-  ~Scene();
+  ~StepSetup();
 
   // Leaves the broad phase to the next call on the mesh.
   void give_back_broad();
