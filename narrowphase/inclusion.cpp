@@ -8,7 +8,6 @@
 namespace onset {
 namespace {
 
-constexpr double kU = 0x1p-53;
 constexpr double kEta = 0x1p-1074;
 
 // A part of the domain with F at its corners. Edge-edge: a box of (t, u, v), corner 4 it + 2 iu + iv.

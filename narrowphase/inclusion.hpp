@@ -2,6 +2,8 @@
 // resort.
 #pragma once
 
+#include "base/unit_roundoff.hpp"
+
 #include <cstdint>
 
 #include "narrowphase/corners.hpp"

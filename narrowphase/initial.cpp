@@ -9,7 +9,6 @@
 namespace onset {
 namespace {
 
-constexpr double kU = 0x1p-53;
 constexpr int kHalvings = 24;
 
 struct Hull {

@@ -8,7 +8,6 @@
 namespace onset {
 namespace {
 
-constexpr double kU = 0x1p-53;
 
 Vec largest(Vec a, Vec b) {
   Vec r;

@@ -9,7 +9,6 @@
 namespace onset {
 namespace {
 
-constexpr double kU = 0x1p-53;
 
 double least(const Corners& corners, double t, const Vec& w) {
   double at[4][3], r = INFINITY;

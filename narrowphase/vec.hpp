@@ -2,6 +2,8 @@
 // kernels' order.
 #pragma once
 
+#include "base/unit_roundoff.hpp"
+
 #include <algorithm>
 #include <cmath>
 

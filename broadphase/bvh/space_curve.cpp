@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/radix_sort.hpp"
 
 namespace onset {
 namespace {
@@ -52,7 +53,6 @@ constexpr HilbertTable kTable = make_hilbert_table();
 constexpr std::size_t kGrain = 8192;
 constexpr std::size_t kCrowd = 64;  // points in one cell that are worth a finer curve
 constexpr int kDeepest = 16;        // finer and finer, at most
-constexpr int kDigitBits = 10;      // of the radix sort
 
 struct Keyed {
   std::uint32_t key;
@@ -85,29 +85,14 @@ bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& 
   return extent > 0 && grid.scale < 0x1p126f;
 }
 
-// Stable, by the key's three digits.
-void radix_sort(Keyed* keys, Keyed* other, std::size_t count) {
-  constexpr std::uint32_t kDigits = 1u << kDigitBits;
-  if (count < kDigits) {
+constexpr std::size_t kFew = 1024;  // so few are sorted faster by comparing
+
+// Stable.
+void sort_by_key(Keyed* keys, Keyed* scratch, std::size_t count) {
+  if (count < kFew)
     std::stable_sort(keys, keys + count, [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
-    return;
-  }
-  std::vector<std::uint32_t> start(3 * kDigits, 0);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::uint32_t pass = 0; pass < 3; ++pass)
-      ++start[pass * kDigits + (keys[i].key >> pass * kDigitBits) % kDigits];
-  for (std::uint32_t pass = 0; pass < 3; ++pass) {
-    std::uint32_t* to = &start[pass * kDigits];
-    for (std::uint32_t d = 0, sum = 0; d < kDigits; ++d) {
-      const std::uint32_t n = to[d];
-      to[d] = sum;
-      sum += n;
-    }
-    for (std::size_t i = 0; i < count; ++i)
-      other[to[(keys[i].key >> pass * kDigitBits) % kDigits]++] = keys[i];
-    std::swap(keys, other);
-  }
-  std::copy(keys, keys + count, other);  // three passes: the result lies in what came as `other`
+  else
+    radix_sort(keys, scratch, count, [](const Keyed& k) { return std::uint64_t(k.key); });
 }
 
 void sort_range(const float* points, Keyed* keys, Keyed* scratch, std::size_t count, int depth) {
@@ -117,7 +102,7 @@ void sort_range(const float* points, Keyed* keys, Keyed* scratch, std::size_t co
     for (std::size_t i = first; i < last; ++i)
       keys[i].key = grid.key(points + 3 * std::size_t(keys[i].index));
   });
-  radix_sort(keys, scratch, count);
+  sort_by_key(keys, scratch, count);
   if (depth == kDeepest) return;
   for (std::size_t first = 0, last; first < count; first = last) {
     for (last = first + 1; last < count && keys[last].key == keys[first].key;) ++last;

@@ -2,6 +2,8 @@
 // kernel text.
 #pragma once
 
+#include "base/unit_roundoff.hpp"
+
 namespace onset {
 
 // Pairs of one kind. Vertex ids: vertex-face v, f0, f1, f2; edge-edge a0, a1, b0, b1.

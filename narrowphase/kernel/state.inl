@@ -1,6 +1,5 @@
 // Kernel text: what a lane of the advancement carries, and how it is set up.
 
-constexpr double kU = 0x1p-53;
 
 // All that a lane carries. Lengths are scaled so that the largest corner component is in [1, 2).
 template <class V, int K>
