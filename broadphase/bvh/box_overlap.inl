@@ -1,7 +1,7 @@
 // Kernel text: one box against eight, at both ends of the motion and moving in between.
 #pragma once
 
-#include "base/pack8f.hpp"
+#include "base/simd/pack.hpp"
 #include "broadphase/bvh/kernel.hpp"
 
 namespace onset {
@@ -14,9 +14,9 @@ constexpr int opposite(int row) { return (row + 3) % 6; }
 // larger of its values at the two ends. (Inlined even into large loops: with a call, eight floats would go through memory.)
 template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block, int k) {
-  const F8 reach = broadcast(box + opposite(k) * stride) + load(block + k * kLanes);
+  const F8 reach = F8::all(box[opposite(k) * stride]) + F8::load(block + k * kLanes);
   if (!kBothEnds) return reach;
-  return max(broadcast(box + (6 + opposite(k)) * stride) + load(block + (6 + k) * kLanes), reach);
+  return max(F8::all(box[(6 + opposite(k)) * stride]) + F8::load(block + (6 + k) * kLanes), reach);
 }
 
 // The smallest over the six. Negative: separated on the same side at both ends.
@@ -33,7 +33,7 @@ inline int touching(const float* box, int stride, const float* block, int rounde
   int lanes = 0;
   for (int k = 0; k < 6; ++k) {
     if ((rounded_axes >> k % 3 & 1) == 0) continue;
-    lanes |= mask_zero(overlap_along<kBothEnds>(box, stride, block, k));
+    lanes |= bits(overlap_along<kBothEnds>(box, stride, block, k) == F8::all(0));
   }
   return lanes;
 }
@@ -45,8 +45,8 @@ struct Reach {
 __attribute__((always_inline)) inline Reach reach(const float* box, int stride, const float* block) {
   Reach r{};
   for (int k = 0; k < 6; ++k) {
-    const F8 s0 = broadcast(box + opposite(k) * stride) + load(block + k * kLanes);
-    const F8 s1 = broadcast(box + (6 + opposite(k)) * stride) + load(block + (6 + k) * kLanes);
+    const F8 s0 = F8::all(box[opposite(k) * stride]) + F8::load(block + k * kLanes);
+    const F8 s1 = F8::all(box[(6 + opposite(k)) * stride]) + F8::load(block + (6 + k) * kLanes);
     r.at_both = k == 0 ? max(s0, s1) : min(max(s0, s1), r.at_both);
     r.at_start = k == 0 ? s0 : min(s0, r.at_start), r.at_end = k == 0 ? s1 : min(s1, r.at_end);
   }
@@ -72,26 +72,26 @@ struct Direction {
 
 // When boxes may be together: from the last root of a rising reach to the first of a falling one.
 struct Together {
-  F8 begin = broadcast(0.0f), end = broadcast(1.0f);
+  F8 begin = F8::all(0.0f), end = F8::all(1.0f);
 
   void limit(F8 s0, F8 s1, F8 slope) {
     const F8 root = s0 * slope;
-    begin = max(where_negative(s0, root, broadcast(0.0f)), begin);
-    end = min(where_negative(s1, root, broadcast(1.0f)), end);
+    begin = max(where_negative(s0, root, F8::all(0.0f)), begin);
+    end = min(where_negative(s1, root, F8::all(1.0f)), end);
   }
 };
 
 // 4u |Ya| at either end, and more than any underflow.
 inline F8 error_of(const Direction& d) {
-  return broadcast(kFourRoundings) * (abs(d.a0) + abs(d.a1)) + broadcast(kLeast);
+  return F8::all(kFourRoundings) * (abs(d.a0) + abs(d.a1)) + F8::all(kLeast);
 }
 inline int certainly_apart(const Together& most) {
-  return mask_greater(most.begin * broadcast(1 - kRootSlack),
-                      most.end * broadcast(1 + kRootSlack) + broadcast(kLeast));
+  return bits(most.begin * F8::all(1 - kRootSlack) >
+              most.end * F8::all(1 + kRootSlack) + F8::all(kLeast));
 }
 inline int certainly_together(const Together& least) {
-  return mask_greater(least.end * broadcast(1 - kRootSlack),
-                      least.begin * broadcast(1 + kRootSlack) + broadcast(kLeast));
+  return bits(least.end * F8::all(1 - kRootSlack) >
+              least.begin * F8::all(1 + kRootSlack) + F8::all(kLeast));
 }
 
 // The lanes whose boxes are certainly apart throughout, of those that are not so on one axis at both ends; and those for
@@ -104,7 +104,7 @@ inline MovingBoxes moving_boxes_apart(const Directions& directions) {
   Together most, least;
   for (int k = 0; k < 6; ++k) {
     const Direction d = directions(k);
-    const F8 s0 = d.a0 + d.b0, s1 = d.a1 + d.b1, e = error_of(d), slope = broadcast(1.0f) / (s0 - s1);
+    const F8 s0 = d.a0 + d.b0, s1 = d.a1 + d.b1, e = error_of(d), slope = F8::all(1.0f) / (s0 - s1);
     most.limit(s0 + e, s1 + e, slope);
     least.limit(s0 - e, s1 - e, slope);
   }

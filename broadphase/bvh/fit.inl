@@ -1,7 +1,7 @@
 // Kernel text: boxes of leaves and of the levels above.
 #pragma once
 
-#include "base/pack8f.hpp"
+#include "base/simd/pack.hpp"
 #include "broadphase/bvh/kernel.hpp"
 
 namespace onset {
@@ -18,12 +18,12 @@ void fit_leaf(const FitArguments& a, std::size_t n) {
     const float* supports = a.supports + end * kLanes;
     F8 row[8];
     for (int lane = 0; lane < kLanes; ++lane) {
-      row[lane] = load(supports + std::size_t(members[lane]) * kStride);
+      row[lane] = F8::load(supports + std::size_t(members[lane]) * kStride);
       for (int k = 1; k < a.members_each; ++k)
-        row[lane] = max(load(supports + std::size_t(members[k * kBlock + lane]) * kStride), row[lane]);
+        row[lane] = max(F8::load(supports + std::size_t(members[k * kBlock + lane]) * kStride), row[lane]);
     }
     transpose(row);
-    for (int k = 0; k < 6; ++k) store(out + (end * 6 + k) * kLanes, row[k < 3 ? k : k + 1]);
+    for (int k = 0; k < 6; ++k) row[k < 3 ? k : k + 1].store(out + (end * 6 + k) * kLanes);
   }
 }
 
@@ -40,23 +40,23 @@ void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, 
   const float nowhere = kNowhere;
   for (std::size_t n = first; n < last; ++n) {
     F8 lanes[16];
-    for (int k = 0; k < 16; ++k) lanes[k] = broadcast(&nowhere);
+    for (int k = 0; k < 16; ++k) lanes[k] = F8::all(nowhere);
     for (int k = 0; k < rows; ++k) {
       F8 row[8];
       for (std::size_t i = 0; i < kBlock; ++i) {
         const std::size_t child = n * kBlock + i;
         row[i] =
-            child < below ? load(tree.level[level - 1] + child * size + k * kLanes) : broadcast(&nowhere);
+            child < below ? F8::load(tree.level[level - 1] + child * size + k * kLanes) : F8::all(nowhere);
       }
       transpose(row);
       for (int i = 1; i < kLanes; ++i) row[0] = max(row[0], row[i]);
-      store(tree.level[level] + n * size + k * kLanes, row[0]);
+      row[0].store(tree.level[level] + n * size + k * kLanes);
       lanes[k] = row[0];
     }
     for (int half = 0; half < stride / 8; ++half) {
       transpose(lanes + 8 * half);
       for (std::size_t i = 0; i < kBlock && n * kBlock + i < below; ++i)
-        store(tree.box[level - 1] + (n * kBlock + i) * unsigned(stride) + 8 * half, lanes[8 * half + int(i)]);
+        lanes[8 * half + int(i)].store(tree.box[level - 1] + (n * kBlock + i) * unsigned(stride) + 8 * half);
     }
   }
 }

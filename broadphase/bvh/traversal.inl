@@ -16,7 +16,7 @@ struct Pairs {
 
   bool full() const { return count > kCapacity - kLanes; }
   void add(I8 as, I8 bs, int lanes) {
-    store(a + count, as), store(b + count, bs);
+    as.store(a + count), bs.store(b + count);
     count += count_lanes(lanes);
   }
 };
@@ -66,8 +66,8 @@ class Traversal {
   // Lanes of a block at `level` of `tree` that lie within one body as a whole, the body given, which does not
   // meet itself.
   static int within(int body, const TreeView& tree, int level, unsigned block) {
-    const I8 bodies = load(tree.bodies[level] + std::size_t(block) * kBlock);
-    return mask_true((broadcast(body) == bodies) & bodies);
+    const I8 bodies = I8::load(tree.bodies[level] + std::size_t(block) * kBlock);
+    return sign_bits((I8::all(body) == bodies) & bodies);
   }
   // The body of a whole block at `level`, which is a lane of the level above.
   static int body_of(const TreeView& tree, int level, unsigned block) {
@@ -83,12 +83,12 @@ class Traversal {
   // Lanes of a block of nodes that may meet a box.
   int meeting(const float* box, int stride, const float* block) const {
     const Reach r = reach_of(box, stride, block);
-    const int mask = mask_not_negative(r.at_both);
-    if (!kMoving || !t_.linear || (mask & mask_negative(r.at_start & r.at_end)) == 0) return mask;
+    const int mask = ~sign_bits(r.at_both) & 0xff;
+    if (!kMoving || !t_.linear || (mask & sign_bits(r.at_start & r.at_end)) == 0) return mask;
     const auto direction = [&](int k) {
       const int across = opposite(k);
-      return Direction{broadcast(box + across * stride), broadcast(box + (6 + across) * stride),
-                       load(block + k * kLanes), load(block + (6 + k) * kLanes)};
+      return Direction{F8::all(box[across * stride]), F8::all(box[(6 + across) * stride]),
+                       F8::load(block + k * kLanes), F8::load(block + (6 + k) * kLanes)};
     };
     return mask & ~moving_boxes_apart(direction).apart;
   }
@@ -114,7 +114,7 @@ class Traversal {
         const int skip = (q >> 3 * (level - 2)) - n * kBlock;
         mask &= 0xff << (skip > 0 ? skip : 0);
       }
-      to.add(broadcast(q), compress(lane_numbers() + broadcast(n * kBlock), mask), mask);
+      to.add(I8::all(q), compress(I8::lane_numbers() + I8::all(n * kBlock), mask), mask);
       if (to.full()) empty_blocks(level - 1);
     }
   }
@@ -126,7 +126,7 @@ class Traversal {
       const int a = from.a[e], b = from.b[e];
       int mask = meeting(box_of(t_.tree, level, b), 1, block_of(t_.query, level, a));
       if (kKeyed) mask &= ~within(body_of(t_.tree, level, unsigned(b)), t_.query, level, unsigned(a));
-      children_[level].add(compress(lane_numbers() + broadcast(a * kBlock), mask), broadcast(b), mask);
+      children_[level].add(compress(I8::lane_numbers() + I8::all(a * kBlock), mask), I8::all(b), mask);
       if (children_[level].full()) empty_children(level);
     }
     empty_children(level);
@@ -152,7 +152,7 @@ class Traversal {
       const float* box = block_of(t_.query, level, c / kBlock) + c % kBlock;
       int mask = meeting(box, kLanes, block_of(t_.tree, level, b)) & unpaired(c, b);
       if (kKeyed) mask &= ~within(t_.query.bodies[level][c], t_.tree, level, b);
-      to.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), mask), mask);
+      to.add(I8::all(int(c)), compress(I8::lane_numbers() + I8::all(int(b * kBlock)), mask), mask);
       if (to.full()) empty_blocks(level - 1);
     }
   }
@@ -170,14 +170,14 @@ class Traversal {
       I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
                           tree.vertices + std::size_t(b) * (kOther * kBlock));
       if (kKeyed) shared = shared | apart(c, b);
-      int mask = mask_neither_negative(r.at_both, shared) & unpaired(c, b);
+      int mask = ~sign_bits(bits_of(r.at_both) | shared) & 0xff & unpaired(c, b);
       if (kKeyed) mask = without_excluded(mask, c, b);
       if (const int doubt = in_doubt(mask, r, rounded); doubt != 0) {
         count_ = std::size_t(out - out_);
         mask &= ~defer(c, b, doubt);
         out = out_ + count_;
       }
-      const I8 others = compress(load(tree.ids + b * kBlock), mask), same = broadcast(query.ids[c]);
+      const I8 others = compress(I8::load(tree.ids + b * kBlock), mask), same = I8::all(query.ids[c]);
       if (kEdges)
         store_interleaved(&out->a, min(same, others), max(same, others));
       else
@@ -194,10 +194,10 @@ class Traversal {
 
   // All bits of the lanes that share a vertex; each vertex of `own` is a row of 8 after the one before.
   __attribute__((always_inline)) static I8 sharing(const int* own, const int* others) {
-    I8 shared = broadcast(own[0]) == load(others);
+    I8 shared = I8::all(own[0]) == I8::load(others);
     for (int j = 0; j < kOwn; ++j)
       for (int k = j == 0; k < kOther; ++k)
-        shared = shared | (broadcast(own[j * kBlock]) == load(others + k * kBlock));
+        shared = shared | (I8::all(own[j * kBlock]) == I8::load(others + k * kBlock));
     return shared;
   }
 
@@ -209,10 +209,10 @@ class Traversal {
   // two static primitives, whose trees are never traversed together.
   I8 apart(unsigned c, unsigned b) const {
     const int *own = key_of(c), *keys = t_.tree.keys + std::size_t(b) * (3 * kBlock);
-    const I8 bodies = load(t_.tree.bodies[0] + std::size_t(b) * kBlock), none = broadcast(0);
-    const I8 same_body = (broadcast(t_.query.bodies[0][c]) == bodies) & bodies;
-    const I8 masked = ((broadcast(own[kBlock]) & load(keys + 2 * kBlock)) == none) |
-                      ((broadcast(own[2 * kBlock]) & load(keys + kBlock)) == none);
+    const I8 bodies = I8::load(t_.tree.bodies[0] + std::size_t(b) * kBlock), none = I8::all(0);
+    const I8 same_body = (I8::all(t_.query.bodies[0][c]) == bodies) & bodies;
+    const I8 masked = ((I8::all(own[kBlock]) & I8::load(keys + 2 * kBlock)) == none) |
+                      ((I8::all(own[2 * kBlock]) & I8::load(keys + kBlock)) == none);
     return same_body | masked;
   }
 
@@ -230,8 +230,8 @@ class Traversal {
   // Lanes of `mask` for which signs in float may not tell: of moving boxes, all that overlap at neither end, or only
   // touch there; else those that touch, where some axis is rounded.
   static int in_doubt(int mask, const Reach& r, bool rounded) {
-    if (kMoving) return mask == 0 ? 0 : mask & mask_not_positive(r.at_start) & mask_not_positive(r.at_end);
-    return rounded ? mask & mask_zero(r.at_both) : 0;
+    if (kMoving) return mask == 0 ? 0 : mask & bits(r.at_start <= F8::all(0)) & bits(r.at_end <= F8::all(0));
+    return rounded ? mask & bits(r.at_both == F8::all(0)) : 0;
   }
 
   // Puts off those of these lanes that float cannot decide; returns them. (Not inlined: the loop that it is called from has
@@ -239,7 +239,7 @@ class Traversal {
   __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
     if (!kMoving)
       doubt &= touching<kBothEnds>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
-    doubtful_.add(broadcast(int(c)), compress(lane_numbers() + broadcast(int(b * kBlock)), doubt), doubt);
+    doubtful_.add(I8::all(int(c)), compress(I8::lane_numbers() + I8::all(int(b * kBlock)), doubt), doubt);
     if (doubtful_.full()) settle_doubtful();
     return doubt;
   }

@@ -1,5 +1,5 @@
 // The whole kernel text, in the order it builds up; included once per instruction set by kernel_scalar.cpp and kernel_avx2.cpp.
-#include "base/pack.hpp"
+#include "base/simd/pack.hpp"
 #include "narrowphase/kernel/kernel.hpp"
 
 namespace onset {

@@ -1,4 +1,4 @@
-// Every operation of base/pack.hpp on one set of inputs, from two translation units: plain arrays and
+// Every operation of base/simd/pack.hpp on one set of inputs, from two translation units: plain arrays and
 // registers.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Included once per instruction set, with ONSET_ISA and ONSET_PACK_OPERATIONS defined.
-#include "base/pack.hpp"
+#include "base/simd/pack.hpp"
 #include "tests/base/simd/pack_operations.hpp"
 
 namespace onset {

@@ -91,7 +91,7 @@ TEST_CASE("pack operations give the same bits on both instruction sets", "[simd]
   }
 }
 
-// What the comments in base/pack.hpp promise.
+// What the comments in base/simd/pack.hpp promise.
 TEST_CASE("min and max give their second operand on a tie or NaN", "[simd]") {
   PackInputs in{};
   const double a[4] = {0.0, -0.0, NAN, 1}, b[4] = {-0.0, 0.0, 1, NAN};

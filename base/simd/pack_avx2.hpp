@@ -1,23 +1,13 @@
-// Lanes of numbers, as the kernels see them: F8 (eight floats) and D4 (four doubles), each with its mask.
-//
-// A kernel text includes this inside a translation unit that defines ONSET_ISA as its namespace; with AVX2 enabled there
-// the packs are registers, else plain arrays. Both give the same bits for every input: only IEEE + - * / sqrt, comparisons
-// and bit operations are used, min and max are `a < b ? a : b` and `a > b ? a : b` (the second operand wins on NaN or
-// equality, as vminpd does), and nothing is contracted (-ffp-contract=off). Never include it where ONSET_ISA could be
-// shared by two instruction sets: the linker would keep one copy of each inline function.
+// The packs of base/simd/pack.hpp as AVX2 registers.
 #pragma once
 
-#ifndef ONSET_ISA
-#error "define ONSET_ISA, the namespace of this instruction set's copy, before including base/pack.hpp"
-#endif
-
-#if defined(__AVX2__)
 #include <immintrin.h>
-#endif
 
-namespace onset::ONSET_ISA {
+#include "base/simd/lane_table.hpp"
 
-#if defined(__AVX2__)
+namespace onset {
+namespace ONSET_ISA {
+namespace {
 
 struct MaskD4 {
   __m256d m;
@@ -112,135 +102,66 @@ inline F8 to_float(D4 lo, D4 hi) {
   return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(lo.v)), _mm256_cvtpd_ps(hi.v), 1)};
 }
 
-#else
+// Of bits.
+inline F8 operator&(F8 a, F8 b) { return {_mm256_and_ps(a.v, b.v)}; }
+inline F8 operator|(F8 a, F8 b) { return {_mm256_or_ps(a.v, b.v)}; }
+// a where the sign bit of `sign` is set, else b.
+inline F8 where_negative(F8 sign, F8 a, F8 b) { return {_mm256_blendv_ps(b.v, a.v, sign.v)}; }
+// Bit i: the sign bit of lane i.
+inline int sign_bits(F8 a) { return _mm256_movemask_ps(a.v); }
+__attribute__((always_inline)) inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
+  return {_mm256_setr_ps(p[0][i], p[1][i], p[2][i], p[3][i], p[4][i], p[5][i], p[6][i], p[7][i])};
+}
 
-template <int N>
-struct LaneMask {
-  bool m[N];
+struct I8 {
+  static constexpr int lanes = 8;
+  __m256i v;
+  static I8 all(int x) { return {_mm256_set1_epi32(x)}; }
+  static I8 load(const int* p) { return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))}; }
+  static I8 lane_numbers() { return {_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)}; }
+  void store(int* p) const { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v); }
 };
-template <class T, int N>
-struct Lanes {
-  using Scalar = T;
-  using Mask = LaneMask<N>;
-  static constexpr int lanes = N;
-  T v[N];
-  static Lanes all(T x) {
-    Lanes r;
-    for (int i = 0; i < N; ++i) r.v[i] = x;
-    return r;
-  }
-  static Lanes load(const T* p) {
-    Lanes r;
-    for (int i = 0; i < N; ++i) r.v[i] = p[i];
-    return r;
-  }
-  void store(T* p) const {
-    for (int i = 0; i < N; ++i) p[i] = v[i];
-  }
-};
+inline I8 operator+(I8 a, I8 b) { return {_mm256_add_epi32(a.v, b.v)}; }
+inline I8 min(I8 a, I8 b) { return {_mm256_min_epi32(a.v, b.v)}; }
+inline I8 max(I8 a, I8 b) { return {_mm256_max_epi32(a.v, b.v)}; }
+inline I8 operator|(I8 a, I8 b) { return {_mm256_or_si256(a.v, b.v)}; }
+inline I8 operator&(I8 a, I8 b) { return {_mm256_and_si256(a.v, b.v)}; }
+inline I8 operator==(I8 a, I8 b) { return {_mm256_cmpeq_epi32(a.v, b.v)}; }  // all bits of a lane
+inline int sign_bits(I8 a) { return _mm256_movemask_ps(_mm256_castsi256_ps(a.v)); }
+inline I8 bits_of(F8 a) { return {_mm256_castps_si256(a.v)}; }
 
-#define ONSET_LANES(signature, expression)        \
-  template <class T, int N>                       \
-  inline Lanes<T, N> signature {                  \
-    Lanes<T, N> r;                                \
-    for (int i = 0; i < N; ++i) r.v[i] = expression; \
-    return r;                                     \
-  }
-#define ONSET_COMPARE(op)                                          \
-  template <class T, int N>                                        \
-  inline LaneMask<N> operator op(const Lanes<T, N>& a, const Lanes<T, N>& b) { \
-    LaneMask<N> r;                                                 \
-    for (int i = 0; i < N; ++i) r.m[i] = a.v[i] op b.v[i];         \
-    return r;                                                      \
-  }
-inline double root(double x) { return __builtin_sqrt(x); }
-inline float root(float x) { return __builtin_sqrtf(x); }
-inline double magnitude(double x) { return __builtin_fabs(x); }
-inline float magnitude(float x) { return __builtin_fabsf(x); }
-#define ONSET_L const Lanes<T, N>&
-ONSET_LANES(operator+(ONSET_L a, ONSET_L b), a.v[i] + b.v[i])
-ONSET_LANES(operator-(ONSET_L a, ONSET_L b), a.v[i] - b.v[i])
-ONSET_LANES(operator*(ONSET_L a, ONSET_L b), a.v[i] * b.v[i])
-ONSET_LANES(operator/(ONSET_L a, ONSET_L b), a.v[i] / b.v[i])
-ONSET_LANES(sqrt(ONSET_L a), root(a.v[i]))
-ONSET_LANES(min(ONSET_L a, ONSET_L b), a.v[i] < b.v[i] ? a.v[i] : b.v[i])
-ONSET_LANES(max(ONSET_L a, ONSET_L b), a.v[i] > b.v[i] ? a.v[i] : b.v[i])
-ONSET_LANES(abs(ONSET_L a), magnitude(a.v[i]))
-ONSET_COMPARE(<)
-ONSET_COMPARE(<=)
-ONSET_COMPARE(>)
-ONSET_COMPARE(>=)
-ONSET_COMPARE(==)
-#undef ONSET_L
-#undef ONSET_COMPARE
-#undef ONSET_LANES
-template <int N>
-inline LaneMask<N> operator&(const LaneMask<N>& a, const LaneMask<N>& b) {
-  LaneMask<N> r;
-  for (int i = 0; i < N; ++i) r.m[i] = a.m[i] & b.m[i];
-  return r;
+// The lanes of `mask` moved to the front; what follows them is unspecified.
+inline I8 compress(I8 x, int mask) {
+  const __m128i lanes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kLaneTable.lane[mask]));
+  return {_mm256_permutevar8x32_epi32(x.v, _mm256_cvtepu8_epi32(lanes))};
 }
-template <int N>
-inline LaneMask<N> operator|(const LaneMask<N>& a, const LaneMask<N>& b) {
-  LaneMask<N> r;
-  for (int i = 0; i < N; ++i) r.m[i] = a.m[i] | b.m[i];
-  return r;
-}
-template <class T, int N>
-inline Lanes<T, N> select(const LaneMask<N>& m, const Lanes<T, N>& a, const Lanes<T, N>& b) {
-  Lanes<T, N> r;
-  for (int i = 0; i < N; ++i) r.v[i] = m.m[i] ? a.v[i] : b.v[i];
-  return r;
-}
-template <int N>
-inline int bits(const LaneMask<N>& m) {
-  int r = 0;
-  for (int i = 0; i < N; ++i) r |= int(m.m[i]) << i;
-  return r;
-}
-using D4 = Lanes<double, 4>;
-using F8 = Lanes<float, 8>;
 
-inline void transpose(const double* p0, const double* p1, const double* p2, const double* p3, D4 (&xyz)[3]) {
-  for (int a = 0; a < 3; ++a) xyz[a].v[0] = p0[a], xyz[a].v[1] = p1[a], xyz[a].v[2] = p2[a], xyz[a].v[3] = p3[a];
+// p[0..15] = a0 b0 a1 b1 ...
+inline void store_interleaved(int* p, I8 a, I8 b) {
+  const __m256i lo = _mm256_unpacklo_epi32(a.v, b.v), hi = _mm256_unpackhi_epi32(a.v, b.v);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permute2x128_si256(lo, hi, 0x20));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p + 8), _mm256_permute2x128_si256(lo, hi, 0x31));
 }
-inline D4 inverse_power_of_two(D4 x) {
-  D4 r;
+
+// x[i] lane j <- x[j] lane i, for 8 packs.
+__attribute__((always_inline)) inline void transpose(F8* x) {
+  __m256 a[8], b[8];
   for (int i = 0; i < 4; ++i) {
-    unsigned long long b;
-    __builtin_memcpy(&b, &x.v[i], 8);
-    b = 0x7fe0000000000000 - (b & 0x7ff0000000000000);
-    __builtin_memcpy(&r.v[i], &b, 8);
+    a[2 * i] = _mm256_unpacklo_ps(x[2 * i].v, x[2 * i + 1].v);
+    a[2 * i + 1] = _mm256_unpackhi_ps(x[2 * i].v, x[2 * i + 1].v);
   }
-  return r;
-}
-inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
-  for (int i = 0; i < 7; ++i)
-    for (int l = 0; l < 8; ++l) out[i].v[l] = p[l][i];
-}
-inline F8 to_float(const D4& lo, const D4& hi) {
-  F8 r;
-  for (int i = 0; i < 4; ++i) r.v[i] = static_cast<float>(lo.v[i]), r.v[4 + i] = static_cast<float>(hi.v[i]);
-  return r;
-}
-
-#endif
-
-// Sums run in one fixed order everywhere.
-template <class V>
-inline V dot(const V (&a)[3], const V (&b)[3]) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-template <class V>
-inline void cross(const V (&a)[3], const V (&b)[3], V (&r)[3]) {
-  r[0] = a[1] * b[2] - a[2] * b[1];
-  r[1] = a[2] * b[0] - a[0] * b[2];
-  r[2] = a[0] * b[1] - a[1] * b[0];
-}
-// Exact at t = 0 and t = 1.
-template <class V>
-inline V lerp(V a, V b, V t) {
-  return (V::all(1) - t) * a + t * b;
+  for (int i = 0; i < 2; ++i) {
+    b[4 * i] = _mm256_shuffle_ps(a[4 * i], a[4 * i + 2], 0x44);
+    b[4 * i + 1] = _mm256_shuffle_ps(a[4 * i], a[4 * i + 2], 0xee);
+    b[4 * i + 2] = _mm256_shuffle_ps(a[4 * i + 1], a[4 * i + 3], 0x44);
+    b[4 * i + 3] = _mm256_shuffle_ps(a[4 * i + 1], a[4 * i + 3], 0xee);
+  }
+  for (int i = 0; i < 4; ++i) {
+    x[i].v = _mm256_permute2f128_ps(b[i], b[i + 4], 0x20);
+    x[i + 4].v = _mm256_permute2f128_ps(b[i], b[i + 4], 0x31);
+  }
 }
 
-}  // namespace onset::ONSET_ISA
+}  // namespace
+}  // namespace ONSET_ISA
+}  // namespace onset
