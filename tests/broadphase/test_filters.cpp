@@ -7,10 +7,12 @@
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/rules.hpp"
 
 using namespace onset;
 using namespace onset::tests;
 using scenes::Random;
+using scenes::set_rule;
 
 namespace {
 
@@ -123,8 +125,8 @@ void name_pairs(Mesh& mesh, Rules& rules, Random& random) {
     rules.intersections.push_back({id(E), id(F), IntersectionKind::touching, {}});
     if (const int e = id(E), g = id(E); e != g) rules.pairs.push_back({PairKind::edge_edge, e, g, {}});
   }
-  mesh.set_excluded_pairs(rules.pairs);
-  mesh.set_excluded_intersections(rules.intersections);
+  set_rule(mesh, &CollisionRules::excluded_pairs, rules.pairs);
+  set_rule(mesh, &CollisionRules::excluded_intersections, rules.intersections);
 }
 
 // Each rule with probability one half. Static vertices of `soup` stop moving.
@@ -136,7 +138,7 @@ Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
     rules.body = mesh.components();
     const int merged = scenes::integer(random, 1, 20);
     for (int& b : rules.body) b %= merged;
-    mesh.set_bodies(rules.body);
+    set_rule(mesh, &CollisionRules::bodies, rules.body);
   }
   const std::size_t bodies = std::size_t(mesh.num_bodies());
   const auto flags = [&](std::size_t size) {
@@ -145,11 +147,11 @@ Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
     for (std::size_t i = 0; i < size; ++i) all[i] = some(part);
     return all;
   };
-  if (some(0.5)) mesh.set_rigid(rules.rigid = flags(bodies));
+  if (some(0.5)) set_rule(mesh, &CollisionRules::rigid_bodies, rules.rigid = flags(bodies));
   if (some(0.5)) mesh.set_self_collision(rules.self = flags(bodies));
   if (some(0.6)) {
     rules.fixed = some(0.5) ? flags(V) : mesh.of_bodies(flags(bodies));
-    mesh.set_static(rules.fixed);
+    set_rule(mesh, &CollisionRules::static_vertices, rules.fixed);
     for (std::size_t v = 0; v < V; ++v)
       for (std::size_t a = 0; a < 3; ++a)
         if (rules.fixed[v]) soup.x_t1[3 * v + a] = soup.x_t0[3 * v + a];
@@ -169,8 +171,8 @@ Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
     }
     return all;
   };
-  if (some(0.5)) mesh.set_excluded_bodies(rules.bodies_apart = pairs(4, int(bodies)));
-  if (some(0.5)) mesh.set_excluded_vertices(rules.vertices_apart = pairs(30, int(V)));
+  if (some(0.5)) set_rule(mesh, &CollisionRules::excluded_bodies, rules.bodies_apart = pairs(4, int(bodies)));
+  if (some(0.5)) set_rule(mesh, &CollisionRules::excluded_vertices, rules.vertices_apart = pairs(30, int(V)));
   name_pairs(mesh, rules, random);
   return mesh;
 }
@@ -275,13 +277,13 @@ TEST_CASE("what can meet nothing gets no box", "[unit]") {
   CHECK(all.vertices.moving == 120);
   CHECK(all.faces.moving == 40);
   Mesh rigid = mesh(true);
-  rigid.set_rigid({true});
+  set_rule(rigid, &CollisionRules::rigid_bodies, {true});
   CHECK(rigid.filter_counts().vertices.dropped == 120);
   CHECK(rigid.filter_counts().edges.dropped == 120);
   CHECK(rigid.filter_counts().faces.dropped == 40);
   CHECK(rigid.filter_counts().edge_edge.may_meet() == 0);
   Mesh still = mesh(true);
-  still.set_static(std::vector<bool>(120, true));
+  set_rule(still, &CollisionRules::static_vertices, std::vector<bool>(120, true));
   CHECK(still.filter_counts().faces.dropped == 40);
   Mesh ghost = mesh(true);  // the first triangle is in no group
   std::vector<std::uint32_t> groups(120, 1), masks(120, 1);

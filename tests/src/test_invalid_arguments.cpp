@@ -3,10 +3,12 @@
 #include <stdexcept>
 
 #include "tests/catch.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/support/scene_set.hpp"
 
 using namespace onset;
 using namespace onset::tests;
+using scenes::set_rule;
 
 namespace {
 
@@ -129,10 +131,13 @@ TEST_CASE("bad topology is named by its row", "[unit]") {
 
 TEST_CASE("bad thickness is named by its row", "[unit]") {
   Calls c;
-  CHECK(names(message_of([&] { c.mesh.set_thickness({1, 2}); }), {"thickness", "2", "8"}));
+  const auto thick = [&](const std::vector<double>& t) {
+    return message_of([&] { set_rule(c.mesh, &CollisionRules::thickness, t); });
+  };
+  CHECK(names(thick({1, 2}), {"thickness", "2", "8"}));
   std::vector<double> t(8, 0.1);
   for (double bad : {-0.5, double(NAN), double(INFINITY)}) {
     t[5] = bad;
-    CHECK(names(message_of([&] { c.mesh.set_thickness(t); }), {"thickness", "5"}));
+    CHECK(names(thick(t), {"thickness", "row 5"}));
   }
 }

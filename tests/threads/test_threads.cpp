@@ -48,7 +48,7 @@ struct Shared {
     const Candidates pairs = compute_candidates(mesh, scene.x_t0, scene.x_t1, o);
     append(bytes, pairs.vertex_face), append(bytes, pairs.edge_edge);
     append(bytes, is_step_collision_free(mesh, scene.x_t0, scene.x_t1, o));
-    for (const double upper : {1.0, 0.3}) append(bytes, search.largest_step(upper).result.step);
+    for (const double upper : {1.0, 0.3}) append(bytes, search.largest_step(upper).step);
     return bytes;
   }
 };

@@ -63,8 +63,8 @@ void check_all(const Query& query, Past past, Options o, Counts& counts) {
       if (set.size() == 0) continue;
       INFO(scenes::to_text(q));
       CAPTURE(int(level), o.min_separation, o.touching_may_pass_through);
-      const Past here = set.status[0] == Outcome::initial_separating ? Past::parting
-                        : set.status[0] == Outcome::contact          ? past
+      const Past here = set[0].outcome == PairOutcome::initial_separating ? Past::parting
+                        : set[0].outcome == Outcome::contact          ? past
                                                                      : Past::any;
       RowCheck(q, set).check(here, counts);
     }
@@ -260,9 +260,9 @@ TEST_CASE("the normal of a resting contact is that of its side whatever the face
   for (const Query& query : {q, turned(q)}) {
     const ActiveSet set = active_set(query);
     REQUIRE(set.size() == 1);
-    CHECK(set.normal[0] == Point{0, 0, 1});
-    CHECK(set.speed[0] == -2 * h);
-    CHECK(set.degenerate[0] == 0);
+    CHECK(set[0].normal == Point{0, 0, 1});
+    CHECK(set[0].speed == -2 * h);
+    CHECK(set[0].degenerate == 0);
     const Constraints c = assemble_constraints(set);
     double at_start = 0;
     for (std::size_t k = 0; k < 12; ++k)
@@ -279,9 +279,9 @@ TEST_CASE("normals of the smallest positions there are", "[unit]") {
   for (const Query& query : {q, turned(q)}) {
     const ActiveSet set = active_set(query);
     REQUIRE(set.size() == 1);
-    CHECK(set.normal[0] == Point{0, 0, 1});
-    CHECK(set.speed[0] == -2 * eta);
-    CHECK(set.degenerate[0] == 0);
+    CHECK(set[0].normal == Point{0, 0, 1});
+    CHECK(set[0].speed == -2 * eta);
+    CHECK(set[0].degenerate == 0);
   }
 }
 
@@ -296,9 +296,9 @@ TEST_CASE("the normal of a grazing contact is that of the side it touches from",
       o.exactness = level;
       const ActiveSet set = active_set(query, o);
       REQUIRE(set.size() == 1);
-      CHECK(set.normal[0][1] == Approx(-std::sqrt(0.2)).epsilon(1e-5));
-      CHECK(set.normal[0][2] == Approx(std::sqrt(0.8)).epsilon(1e-5));
-      CHECK(set.degenerate[0] == 0);
+      CHECK(set[0].normal[1] == Approx(-std::sqrt(0.2)).epsilon(1e-5));
+      CHECK(set[0].normal[2] == Approx(std::sqrt(0.8)).epsilon(1e-5));
+      CHECK(set[0].degenerate == 0);
     }
 }
 
@@ -310,8 +310,8 @@ TEST_CASE("a contact that parts at a boundary does so along its normal", "[unit]
   o.min_separation = 0.001;
   const ActiveSet set = active_set(q, o);
   REQUIRE(set.size() == 1);
-  CHECK(set.status[0] == Outcome::initial_separating);
-  CHECK(set.speed[0] > 0);
+  CHECK(set[0].outcome == PairOutcome::initial_separating);
+  CHECK(set[0].speed > 0);
 }
 
 TEST_CASE("a vertex that comes to an edge of a face, or a wire to a parallel one, has the normal of its gap",
@@ -327,9 +327,9 @@ TEST_CASE("a vertex that comes to an edge of a face, or a wire to a parallel one
   for (const Query& q : {vertex, wires}) {
     const ActiveSet set = active_set(q, o);
     REQUIRE(set.size() == 1);
-    CHECK(set.degenerate[0] == 0);
-    CHECK(set.normal[0][0] == 0);
-    CHECK(set.normal[0][1] == Approx(-0.5).epsilon(1e-5));
-    CHECK(set.normal[0][2] == Approx(std::sqrt(0.75)).epsilon(1e-5));
+    CHECK(set[0].degenerate == 0);
+    CHECK(set[0].normal[0] == 0);
+    CHECK(set[0].normal[1] == Approx(-0.5).epsilon(1e-5));
+    CHECK(set[0].normal[2] == Approx(std::sqrt(0.75)).epsilon(1e-5));
   }
 }
