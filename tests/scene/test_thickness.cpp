@@ -43,7 +43,8 @@ TEST_CASE("each pair of a scene with thickness answers as the query with that se
         const int first = scenes::first_body(kind);
         const double d = 0.01 + thickest(t, v, 0, first) + thickest(t, v, first, 4);
         Query query = query_of(kind, v, named.scene.x_t0, named.scene.x_t1);
-        const Contact* found = contact_of(active, {kind, a, b});
+        const std::size_t i = row_of(active, {kind, a, b});
+        const bool found = i < active.size();
         ++(found ? reported : silent);
         if (!found && silent % every != 0) return;
         Options alone = o;
@@ -53,7 +54,7 @@ TEST_CASE("each pair of a scene with thickness answers as the query with that se
         if (found) {
           CHECK(closest <= d + 1.1e-6);
           const QueryResult r = ccd(query, alone);
-          CHECK(std::abs(r.toi - found->toi) < 1e-3);
+          CHECK(std::abs(r.toi - active[i].toi) < 1e-3);
         } else {
           CHECK(closest >= d * (1 - 1e-9));
         }

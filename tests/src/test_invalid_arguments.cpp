@@ -73,6 +73,15 @@ TEST_CASE("wrong numbers of rows and columns are named", "[unit]") {
   expect(c.with(good, Eigen::VectorXd::Zero(27)), {"x_t1", "9", "8"});
 }
 
+// What a caller has who keeps one vertex a column.
+TEST_CASE("positions of one column a vertex are told what to pass instead", "[unit]") {
+  const Calls c;
+  const Eigen::MatrixXd good = c.scene.x_t0, columns = good.transpose();
+  expect(c.with(columns, good), {"x_t0", "transpose()", "data()"});
+  expect(c.with(good, columns), {"x_t1", "transpose()", "data()"});
+  for (const auto& call : c.with(columns.transpose(), Positions(columns.data(), 8))) CHECK_NOTHROW(call());
+}
+
 TEST_CASE("options out of range are named with their value", "[unit]") {
   for (double bad : {0.0, -1.0, double(NAN), double(INFINITY)}) {
     Options o;

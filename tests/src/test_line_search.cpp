@@ -1,5 +1,7 @@
 #include <cmath>
 #include <onset/onset.hpp>
+#include <stdexcept>
+#include <utility>
 
 #include "tests/catch.hpp"
 
@@ -84,6 +86,45 @@ TEST_CASE("an upper bound below the contact is returned as it is", "[unit]") {
   CHECK(r.step == 0.25);
   CHECK(r.outcome == Outcome::free);
   CHECK(search.candidates().total() > 0);
+}
+
+TEST_CASE("a line search that holds nothing says so, and may be assigned to", "[unit]") {
+  TwoTriangles s;
+  const Eigen::MatrixXd dx = s.target - s.x;
+  const auto throws = [](const LineSearch& search) {
+    CHECK_THROWS_AS(search.largest_step(), std::logic_error);
+    CHECK_THROWS_AS(search.largest_step(0.5), std::logic_error);
+    CHECK_THROWS_AS(search.close_pairs(0.5), std::logic_error);
+    CHECK_THROWS_AS(search.candidates(), std::logic_error);
+    CHECK_THROWS_AS(search.close_candidates(), std::logic_error);
+  };
+  LineSearch search;
+  throws(search);
+  search = LineSearch(s.mesh(), s.x, dx);
+  const double step = search.largest_step().step;
+  CHECK((step > 0 && step < 0.5));
+  LineSearch other = std::move(search);
+  throws(search);
+  CHECK(other.largest_step().step == step);
+  search = std::move(other);
+  CHECK(search.largest_step().step == step);
+  search = LineSearch();
+  throws(search);
+}
+
+TEST_CASE("a line search without options of its own keeps a fifth of each gap", "[unit]") {
+  TwoTriangles s;
+  const Eigen::MatrixXd dx = s.target - s.x;
+  CHECK((LineSearchOptions().gap_share == 0.2 && LineSearchOptions().d_hat == 0));
+  Options options;
+  options.max_checks = 77, options.min_separation = 0.1;
+  const LineSearchOptions all = options;
+  CHECK((all.max_checks == 77 && all.min_separation == 0.1 && all.gap_share == 0.2 && all.d_hat == 0));
+  CHECK(LineSearch(s.mesh(), s.x, dx).largest_step().gap_share == 0.2);
+  CHECK(LineSearch(s.mesh(), s.x, dx, options).largest_step().step ==
+        LineSearch(s.mesh(), s.x, dx, keeping(0.2, options)).largest_step().step);
+  CHECK(LineSearch(s.mesh(), s.x, dx, options).largest_step().step <
+        LineSearch(s.mesh(), s.x, dx, keeping(0.1, options)).largest_step().step);
 }
 
 TEST_CASE("line search arguments out of range are rejected, bad motion is an outcome", "[unit]") {

@@ -90,7 +90,7 @@ class RowCheck {
     n_ = exact(set_[0].normal);
     shortest_ = motion_.shortest(Rational(t_));
     gap_ = PairMotion::length(shortest_);
-    flagged_ = set_[0].degenerate != 0;
+    flagged_ = set_[0].degenerate;
   }
 
   void check(Past past, Counts& counts) {

@@ -84,7 +84,7 @@ struct Row {
     CAPTURE(size, least, noise, set[0].gap, n[0], n[1], n[2]);
     CHECK(size <= least + noise);
     CHECK(std::fabs(set[0].gap - size) <= noise);
-    if (set[0].outcome != Outcome::max_checks)
+    if (set[0].outcome != PairOutcome::max_checks)
       CHECK(size <= (d + set.stats.achieved_tolerance) * (1 + 0x1p-40) + noise);
 
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -98,7 +98,7 @@ struct Row {
     CHECK(std::fabs(set[0].speed - speed) <= 4 * noise);
     const auto strictly = [](double weight) { return std::fabs(weight) > 0x1p-30; };
     if (!set[0].degenerate && std::all_of(w.begin(), w.end(), strictly)) check_square(x, n, noise);
-    if (least > 0x1p-40 * rho) CHECK(set[0].degenerate == 0);
+    if (least > 0x1p-40 * rho) CHECK_FALSE(set[0].degenerate);
   }
 
  private:
@@ -131,7 +131,7 @@ bool check(const Query& query, double d, double tolerance, bool closes) {
   const Row row{query, set, d};
   row.check();
   // Generic pairs close, unless they slide past: the normal points to where they came from.
-  if (closes && set[0].outcome == Outcome::contact && std::fabs(row.speed_share()) > 0x1p-10)
+  if (closes && set[0].outcome == PairOutcome::contact && std::fabs(row.speed_share()) > 0x1p-10)
     CHECK(row.speed_share() < 0);
   return true;
 }
@@ -187,7 +187,7 @@ TEST_CASE("a vertex that falls on a face has the face's normal on its own side",
     CHECK(set[0].weights == std::array<double, 4>{1, -0.5, -0.25, -0.25});
     CHECK(set[0].speed == -2);
     CHECK(set[0].gap <= set.stats.achieved_tolerance);
-    CHECK(set[0].degenerate == 0);
+    CHECK_FALSE(set[0].degenerate);
   }
 }
 
@@ -215,7 +215,7 @@ TEST_CASE("pairs without a cross product have the normal of their gap, or touchi
       REQUIRE(set.size() == 1);
       CAPTURE(scenes::name(q.kind), from);
       CHECK(set[0].normal == Point{0, 0, from == 1 ? 1.0 : -1.0});
-      CHECK(set[0].degenerate == (from == 1 ? 0 : 1));
+      CHECK(set[0].degenerate == (from != 1));
     }
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("pairs that meet along an edge or within a plane are divided across th
     REQUIRE(set.size() == 1);
     CAPTURE(scenes::name(q.kind));
     CHECK(set[0].normal == Point{0, 0, 1});
-    CHECK(set[0].degenerate == 0);
+    CHECK_FALSE(set[0].degenerate);
   }
 }
 
@@ -265,10 +265,11 @@ TEST_CASE("constraints hold at the start of a step and tell how far its end is t
 
 TEST_CASE("a map that cannot number the columns is rejected", "[unit]") {
   ActiveSet set;
-  set.kind = {PairKind::vertex_face};
-  set.vertices = {{0, 1, 2, 3}};
-  set.weight = {{1, -1, 0, 0}};
-  set.normal = {{0, 0, 1}};
+  Contact contact;
+  contact.vertices = {0, 1, 2, 3};
+  contact.weights = {1, -1, 0, 0};
+  contact.normal = {0, 0, 1};
+  set.contacts = {contact};
   CHECK(assemble_constraints(set).dof[11] == 11);
   CHECK_THROWS_AS(assemble_constraints(set, 0, {0, 1, 2}), std::invalid_argument);
   CHECK_THROWS_AS(assemble_constraints(set, 0, {0, 1, 2, -1}), std::invalid_argument);

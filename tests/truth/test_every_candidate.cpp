@@ -2,6 +2,7 @@
 // certainty. Half a minute.
 #include <map>
 #include <onset/active_set.hpp>
+#include <onset/candidates.hpp>
 
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact/exact_query.hpp"

@@ -33,11 +33,18 @@ struct Key {
   bool operator<(const Key& o) const { return std::tuple(kind, a, b) < std::tuple(o.kind, o.a, o.b); }
 };
 
-// A pair's contact in an active set, or null.
-inline const Contact* contact_of(const ActiveSet& set, const Key& pair) {
-  const auto found = std::lower_bound(
-      set.begin(), set.end(), pair, [](const Contact& c, const Key& key) { return Key{c.kind, c.a, c.b} < key; });
-  return found != set.end() && !(pair < Key{found->kind, found->a, found->b}) ? &*found : nullptr;
+// The row of a pair in an active set, or its size.
+inline std::size_t row_of(const ActiveSet& set, const Key& pair) {
+  std::size_t first = 0, last = set.size();
+  while (first < last) {
+    const std::size_t middle = (first + last) / 2;
+    if (Key{set[middle].kind, set[middle].a, set[middle].b} < pair)
+      first = middle + 1;
+    else
+      last = middle;
+  }
+  const bool found = first < set.size() && !(pair < Key{set[first].kind, set[first].a, set[first].b});
+  return found ? first : set.size();
 }
 
 // Every pair of the mesh without a common vertex: visit(kind, a, b, vertices).
