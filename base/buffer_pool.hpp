@@ -1,4 +1,4 @@
-// What one call on a mesh leaves for the next: memory, and what it found out that may hold again.
+// What one call leaves for the next: objects that are taken over, and objects that are shared.
 #pragma once
 
 #include <array>
@@ -9,28 +9,46 @@
 
 namespace onset {
 
-// Each slot holds at most one object that nobody uses: who takes it has it alone.
+// Each slot holds at most one object that nobody uses: who takes it has it alone. T may be incomplete here.
+template <class T, std::size_t kSlots>
 class BufferPool {
  public:
-  using Slot = std::size_t;
-  static constexpr Slot kSlots = 4;
-
-  template <class T>
-  std::shared_ptr<T> take(Slot slot) {
+  std::shared_ptr<T> take(std::size_t slot) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return std::static_pointer_cast<T>(std::exchange(slots_[slot], nullptr));
+    return std::exchange(slots_[slot], nullptr);
   }
-  void give_back(Slot slot, std::shared_ptr<void> object) {
+  void give_back(std::size_t slot, std::shared_ptr<T> object) {
     const std::lock_guard<std::mutex> lock(mutex_);
     slots_[slot].swap(object);  // the old one goes after the lock
   }
   void clear() {
-    for (Slot slot = 0; slot < kSlots; ++slot) give_back(slot, nullptr);
+    for (std::size_t slot = 0; slot < kSlots; ++slot) give_back(slot, nullptr);
   }
 
  private:
   std::mutex mutex_;
-  std::array<std::shared_ptr<void>, kSlots> slots_;
+  std::array<std::shared_ptr<T>, kSlots> slots_;
+};
+
+// Each slot holds the latest immutable object put there; who took an earlier one keeps it. T may be incomplete here.
+template <class T, std::size_t kSlots = 1>
+class SharedCache {
+ public:
+  std::shared_ptr<const T> get(std::size_t slot = 0) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return slots_[slot];
+  }
+  void put(std::shared_ptr<const T> object, std::size_t slot = 0) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    slots_[slot].swap(object);  // the old one goes after the lock
+  }
+  void clear() {
+    for (std::size_t slot = 0; slot < kSlots; ++slot) put(nullptr, slot);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::array<std::shared_ptr<const T>, kSlots> slots_;
 };
 
 }  // namespace onset

@@ -26,9 +26,9 @@ double median(std::vector<double> x) {
 }
 
 std::vector<int> some_moving_edges(const MeshData& mesh) {
-  const PrimitiveFilter* filter = mesh.filter.get();
-  const bool all = !filter || filter->all;
-  const std::vector<int>* moving = all ? nullptr : &filter->moving[std::size_t(Primitive::edge)];
+  const PrimitiveFilter& filter = *mesh.filter;
+  const bool all = filter.all;
+  const std::vector<int>* moving = all ? nullptr : &filter.moving[std::size_t(Primitive::edge)];
   const std::size_t count = all ? mesh.edges.size() : moving->size();
   std::vector<int> edges;
   for (std::size_t i = 0; i < count; i += std::max<std::size_t>(1, count / kSamples))

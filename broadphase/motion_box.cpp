@@ -88,13 +88,13 @@ MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, doubl
 
 MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind) {
   MotionBoxes result;
-  const PrimitiveFilter* filter = input.mesh.filter.get();
-  if (!filter || filter->all) {
+  const PrimitiveFilter& filter = *input.mesh.filter;
+  if (filter.all) {
     result.ids.resize(primitive_count(input.mesh, kind));
     std::iota(result.ids.begin(), result.ids.end(), 0);
   } else {
-    const std::vector<int>&moving = filter->moving[std::size_t(kind)],
-          &still = filter->statics[std::size_t(kind)];
+    const std::vector<int>&moving = filter.moving[std::size_t(kind)],
+          &still = filter.statics[std::size_t(kind)];
     std::merge(moving.begin(), moving.end(), still.begin(), still.end(), std::back_inserter(result.ids));
   }
   result.boxes.resize(result.ids.size());

@@ -5,9 +5,6 @@
 #include <array>
 #include <vector>
 
-#include "narrowphase/corners.hpp"
-#include "narrowphase/exact/exact.hpp"
-#include "narrowphase/initial.hpp"
 #include "narrowphase/kernel/float_positions.hpp"
 #include "narrowphase/kernel/kernel.hpp"
 #include "onset/options.hpp"
@@ -35,6 +32,9 @@ struct NarrowPhaseInput {
   bool stored = false;
   double gap_share = 0, rounding = 0;
   const PairPredicate* contacts = nullptr;  // others have no toi; null: all may have
+
+  bool times_are_exact() const { return exact_times && options.exactness == Exactness::exact; }
+  bool inclusion_only() const { return options.narrow_phase == NarrowPhaseMethod::inclusion; }
 };
 
 // Model length: a pair that has not spent its checks is reported no farther beyond what it must keep.
@@ -102,73 +102,15 @@ class NarrowPhase {
   // Gives a contact of this pair, found at Exactness::exact, its exact time: adjacent doubles toi and
   // toi_hi.
   void sharpen(PairKind kind, PairResult& result) const;
-  bool times_are_exact() const { return in_.exact_times && in_.options.exactness == Exactness::exact; }
+  bool times_are_exact() const { return in_.times_are_exact(); }
   const char* to_string() const { return kernels_->name; }
 
  private:
-  struct Case {  // one pair of a batch
-    PairKind kind;
-    IdPair pair;
-    const KernelPairs& input;
-    int row;
-    const int (&vertices() const)[4] { return input.vertices[row]; }
-    double separation() const { return input.separation[row]; }  // model length
-  };
-  struct Bounds;  // of a pair's distance at one time, and a direction that shows it (pair_start.cpp)
-
   KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                       NarrowPhaseScratch& scratch) const;
-  // Of the exact motion.
-  static KernelPairs without_storing(KernelPairs pairs, double t_max);
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
   void advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const;
   void gather(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
-  Corners corners_of(const Case& c) const;
-  double distance_at(const Case& c, double t) const;  // scaled upper bound
-  void advance(PairKind kind, const KernelPairs& pairs, const int* rows, int count, const KernelResume* resume,
-               KernelResult* results) const;
-  void advance(const Case& c, const KernelResume* resume, KernelResult& result) const;
-  void certify(PairKind kind, const KernelPairs& pairs, const int* rows, int count, KernelResult* results) const;
-  KernelResult push_on(const Case& c, const Corners& corners, KernelResult r) const;
-  KernelResult carry_on(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats, bool& searched) const;
-
-  // Exact arithmetic (decide_exactly.cpp).
-  bool uses_exact(const Case& c) const;  // whether it is asked at all
-  bool decides_completely(const Case& c) const;
-  ExactPair exact_pair_of(const Case& c) const;
-  ExactAnswer decide_exactly(const Case& c, const KernelResult& found, double from) const;
-  bool touches_at_start(const Case& c) const;
-  bool seen_within_separation(const Case& c, const KernelResult& found) const;
-
-  // The exact motion of one pair, which is apart, or parting, until `from`.
-  void finish(const Case& c, const KernelResult& checked, double from, NarrowPhaseStats& stats,
-              std::vector<PairResult>& out) const;
-  void finish_initial(const Case& c, const Corners& corners, const Bounds& start, const KernelResult& found,
-                      const ExactAnswer& exact, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
-
-  // Its start (pair_start.cpp).
-  bool is_welded(const Case& c) const;
-  Bounds bounds_at(const Case& c, const Corners& corners, double t) const;
-  Parting find_parting_of(const Case& c, const Corners& corners, const Bounds& start, double separation,
-                          bool touching) const;
-  KernelResult advance_from(const Case& c, const Corners& corners, const Bounds& at, double t, double kept) const;
-
-  // Steps that are stored (stored_step.cpp).
-  struct StoredLimit;
-  double storing_rounding(const Case& c, const Corners& corners) const;  // scaled
-  void finish_stored(const Case& c, const KernelResult& checked, NarrowPhaseStats& stats,
-                     std::vector<PairResult>& out) const;
-  StoredLimit limit_from_start(const Case& c, const Case& exact, NarrowPhaseStats& stats,
-                               std::vector<PairResult>& contact) const;
-  StoredLimit limit_of_small_gap(const Case& c, const Corners& corners, const std::vector<PairResult>& contact,
-                                 NarrowPhaseStats& stats) const;
-  StoredLimit limit_after_parting(const Case& c, const Corners& corners, const Bounds& start,
-                                  NarrowPhaseStats& stats) const;
-  KernelResult limit_from(const Case& c, const Corners& corners, const Bounds& at, double t, double kept,
-                          NarrowPhaseStats& stats) const;
-  double clear_time(const Case& c, const Corners& corners, double wanted) const;
-  void decide(const Case& c, NarrowPhaseStats& stats, std::vector<PairResult>& out) const;
-  void note_kept(const Case& c, double share, NarrowPhaseStats& stats) const;
 
   NarrowPhaseInput in_;
   const KernelTable* kernels_;

@@ -1,6 +1,11 @@
-// What the parts of a pair's decision share.
+// One pair that advancement did not certify as free: is it a contact, when, and how far does it let a step go?
 #pragma once
 
+#include <optional>
+
+#include "narrowphase/corners.hpp"
+#include "narrowphase/exact/exact.hpp"
+#include "narrowphase/initial.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "narrowphase/vec.hpp"
 
@@ -18,11 +23,93 @@ constexpr double kLeastTolerance = 116 * 0x1p-53;
 // Of rho: a certificate of a start sees no smaller gap.
 constexpr double kStartNoise = 16 * 0x1p-53;
 
-// A pair's distance at one time, scaled as its corners are: between `lower` and `upper`; w: a direction of length 1 along
-// which every corner is beyond about `lower`.
-struct NarrowPhase::Bounds {
-  double lower, upper;
-  Vec w;
+// Of the exact motion.
+KernelPairs without_storing(KernelPairs pairs, double t_max);
+
+// What is asked: row `row` of a batch of one kind.
+struct PairQuestion {
+  const NarrowPhaseInput& in;
+  const KernelsOfKind& kernels;
+  const KernelPairs& pairs;
+  int row;
+  PairKind kind;
+  IdPair pair;
+};
+
+class PairDecision {
+ public:
+  PairDecision(const PairQuestion& question, NarrowPhaseStats& stats)
+      : in_(question.in), kernels_(question.kernels), pairs_(question.pairs), asked_(question), stats_(stats) {}
+
+  // The contact of the exact motion, none where it is free. Advancement left the pair as `checked`; it is apart, or
+  // parting, until `from`. The stages, each of which may end it:
+  //   1. exact first, where advancement stalled: that takes less than to find out in doubles (decide_exactly.cpp);
+  //   2. push on with certificates for intervals of time;
+  //   3. search by inclusion;
+  //   4. prove: by the certificate of a contact, then in integers (decide_exactly.cpp);
+  //   5. report: when, how far the pair lets a step go, how certain, at which distance.
+  std::optional<PairResult> contact(const KernelResult& checked, double from = 0);
+
+  // How far the pair lets a step go whose end is stored, with the contact of its exact motion (stored_step.cpp).
+  std::optional<PairResult> stored_step(const KernelResult& checked);
+
+  // Gives a contact of this pair, found at Exactness::exact, its exact time: adjacent doubles toi and toi_hi.
+  void sharpen(PairResult& result) const;
+
+ private:
+  // The pair's distance at one time, scaled as its corners are: between `lower` and `upper`; w: a direction of length 1
+  // along which every corner is beyond about `lower`.
+  struct Bounds {
+    double lower, upper;
+    Vec w;
+  };
+
+  const int (&vertices() const)[4] { return pairs_.vertices[asked_.row]; }
+  double separation() const { return pairs_.separation[asked_.row]; }  // model length
+  const Corners& corners() const;
+  double distance_at(double t) const;  // scaled upper bound
+  void advance(const KernelResume* resume, KernelResult& result) const;
+
+  KernelResult push_on(KernelResult r) const;
+  KernelResult search(KernelResult found);
+  // Stages 2 and 3. `searched`: the bound of the distance is that of the inclusion root finder.
+  KernelResult carry_on(const KernelResult& checked, bool& searched);
+  PairResult report(KernelResult found, const ExactAnswer& exact, double from, bool searched) const;
+  PairResult contact_at_start(const Bounds& start, const KernelResult& found, const ExactAnswer& exact);
+  void add_contact_after_parting(const KernelResult& found, const Parting& parting, PairResult& r);
+
+  // Exact arithmetic (decide_exactly.cpp).
+  bool uses_exact() const;  // whether it is asked at all
+  bool decides_completely() const;
+  ExactPair exact_pair_of_this() const;
+  ExactAnswer decide_exactly(const KernelResult& found, double from) const;
+  bool touches_at_start() const;
+  bool seen_within_separation(const KernelResult& found) const;
+
+  // The start (pair_start.cpp).
+  bool is_welded() const;
+  Bounds bounds_at(double t) const;
+  Parting find_parting_of(const Bounds& start, double separation, bool touching) const;
+  KernelResult advance_from(const Bounds& at, double t, double kept) const;
+
+  // Steps that are stored (stored_step.cpp).
+  struct StoredLimit;
+  double storing_rounding() const;  // scaled
+  std::optional<PairResult> from_scratch();
+  std::optional<PairResult> exact_motion();
+  StoredLimit limit_from_start(std::optional<PairResult>& contact);
+  StoredLimit limit_of_small_gap(const std::optional<PairResult>& contact);
+  StoredLimit limit_after_parting(const Bounds& start);
+  KernelResult limit_from(const Bounds& at, double t, double kept);
+  double clear_time(double wanted) const;
+  void note_kept(double share);
+
+  const NarrowPhaseInput& in_;
+  const KernelsOfKind& kernels_;
+  const KernelPairs& pairs_;
+  const PairQuestion asked_;
+  NarrowPhaseStats& stats_;
+  mutable std::optional<Corners> corners_;
 };
 
 }  // namespace onset

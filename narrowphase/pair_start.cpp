@@ -4,7 +4,6 @@
 
 #include "narrowphase/distance/closest_points.hpp"
 #include "narrowphase/distance/maximum_norm.hpp"
-#include "narrowphase/kernel/kernels.hpp"
 #include "narrowphase/pair_decision.hpp"
 
 namespace onset {
@@ -35,57 +34,55 @@ double certified_until(const Corners& corners, const Vec& w, double norm, double
 
 }  // namespace
 
-bool NarrowPhase::is_welded(const Case& c) const {
-  const int(&v)[4] = c.vertices();
-  return in_.mesh.weld && is_seam(in_.motion, c.kind, {v[0], v[1], v[2], v[3]});
+bool PairDecision::is_welded() const {
+  const int(&v)[4] = vertices();
+  return in_.mesh.weld && is_seam(in_.motion, asked_.kind, {v[0], v[1], v[2], v[3]});
 }
 
-NarrowPhase::Bounds NarrowPhase::bounds_at(const Case& c, const Corners& corners, double t) const {
+PairDecision::Bounds PairDecision::bounds_at(double t) const {
   Bounds r{};
-  const ExactPair pair = exact_pair_of(c);
-  if (c.input.maximum_norm) {
-    r.w = best_direction_in_maximum_norm(PreciseMotion(c.kind, pair.t0, pair.t1).at(t));
+  const ExactPair pair = exact_pair_of_this();
+  if (pairs_.maximum_norm) {
+    r.w = best_direction_in_maximum_norm(PreciseMotion(asked_.kind, pair.t0, pair.t1).at(t));
     const double size = sum_of_magnitudes(r.w);
-    r.lower = size > 0 ? (least(corners, t, r.w) - 8 * kU * corners.rho) / size * (1 - 0x1p-49) : 0;
+    r.lower = size > 0 ? (least(corners(), t, r.w) - 8 * kU * corners().rho) / size * (1 - 0x1p-49) : 0;
     // The best direction shows all of the distance (duality): the bound is off by its own rounding and that of w.
-    r.upper = r.lower > 0 ? r.lower + 32 * kU * corners.rho : distance_at(c, t);
+    r.upper = r.lower > 0 ? r.lower + 32 * kU * corners().rho : distance_at(t);
     return r;
   }
   const ClosestPoints found =
-      t == 0 ? closest_points(c.kind, pair.t0) : closest_points(c.kind, pair.t0, pair.t1, t);
+      t == 0 ? closest_points(asked_.kind, pair.t0) : closest_points(asked_.kind, pair.t0, pair.t1, t);
   r.w = vec(found.direction);
-  r.lower = found.lower / corners.unit;
-  r.upper = found.upper / corners.unit;
+  r.lower = found.lower / corners().unit;
+  r.upper = found.upper / corners().unit;
   return r;
 }
 
-Parting NarrowPhase::find_parting_of(const Case& c, const Corners& corners, const Bounds& start, double separation,
-                                     bool touching) const {
-  const ExactPair exact = exact_pair_of(c);
+Parting PairDecision::find_parting_of(const Bounds& start, double separation, bool touching) const {
+  const ExactPair exact = exact_pair_of_this();
   const std::function<Vec(double)> direction = [&](double t) {
-    return t == 0 ? start.w : bounds_at(c, corners, t).w;
+    return t == 0 ? start.w : bounds_at(t).w;
   };
-  return find_parting({corners, c.input, c.row, c.kind, separation, direction, touching ? nullptr : &exact});
+  return find_parting({corners(), pairs_, asked_.row, asked_.kind, separation, direction, touching ? nullptr : &exact});
 }
 
 // Goes on at time t, where the pair is apart by more than d + kept as `at` shows. Where the full demand certifies nothing, d +
 // kept alone does: never a zero from a start that is apart.
-KernelResult NarrowPhase::advance_from(const Case& c, const Corners& corners, const Bounds& at, double t,
-                                       double kept) const {
-  const double e7 = 7.25 * kU * corners.rho, unit = corners.unit, d = c.separation() / unit + kept;
+KernelResult PairDecision::advance_from(const Bounds& at, double t, double kept) const {
+  const double e7 = 7.25 * kU * corners().rho, unit = corners().unit, d = separation() / unit + kept;
   const double apart = at.lower - d;
-  const double delta = std::max(std::min({c.input.tolerance / unit, c.input.sharpest, 0.25 * apart}), 16 * e7);
-  const double norm = c.input.maximum_norm ? sum_of_magnitudes(at.w) : 1;
-  double until = certified_until(corners, at.w, norm, d + 0.5 * delta, t);
-  if (until == t) until = certified_until(corners, at.w, norm, d, t);
+  const double delta = std::max(std::min({pairs_.tolerance / unit, pairs_.sharpest, 0.25 * apart}), 16 * e7);
+  const double norm = pairs_.maximum_norm ? sum_of_magnitudes(at.w) : 1;
+  double until = certified_until(corners(), at.w, norm, d + 0.5 * delta, t);
+  if (until == t) until = certified_until(corners(), at.w, norm, d, t);
   KernelResult r{};
   r.t = std::min(until, 1.0);
   r.distance = at.upper, r.delta = delta, r.separation = d, r.unit = unit, r.checks = 1;
   r.touched_by = 2;
   r.verdict = until > 1 ? Verdict::free : Verdict::max_checks;
-  if (until > 1 || c.input.max_checks <= 1) return r;
+  if (until > 1 || pairs_.max_checks <= 1) return r;
   const KernelResume resume{r.t, d, delta, 1, 0};
-  advance(c, &resume, r);
+  advance(&resume, r);
   return r;
 }
 

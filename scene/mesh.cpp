@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/buffer_pool.hpp"
 #include "scene/edges_of_faces.hpp"
 #include "scene/rules.hpp"
 #include "scene/primitive.hpp"
@@ -113,8 +112,10 @@ int Mesh::full_vertex(std::ptrdiff_t vertex) const {
 const FilterCounts& Mesh::filter_counts() const { return data_->filter->counts; }
 
 void Mesh::release_memory() const {
-  data_->buffer_pool->clear();
-  if (data_->static_cache) data_->static_cache->clear();
+  data_->broad_phases->clear();
+  if (!data_->static_cache) return;
+  data_->static_cache->motion.clear();
+  data_->static_cache->trees.clear();
 }
 
 std::array<int, 4> Mesh::full_vertices(const Pair& pair) const {

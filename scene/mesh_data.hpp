@@ -7,12 +7,14 @@
 #include <memory>
 #include <vector>
 
+#include "scene/static_cache.hpp"
+
 namespace onset {
 
 struct CollisionRules;    // onset/collision_rules.hpp
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
-class StaticCache;        // scene/static_cache.hpp
-class BufferPool;            // base/buffer_pool.hpp
+
+std::shared_ptr<const PrimitiveFilter> all_primitives();
 
 struct MeshData {
   int num_vertices = 0, num_points = 0;
@@ -34,11 +36,11 @@ struct MeshData {
   std::vector<int> full_vertex;  // a vertex: its id in the full mesh; empty: its own
   int num_full_vertices = 0;
 
-  // What follows from the above, made once (finish_mesh). Null: every primitive takes part, moves, and may
+  // What follows from the above, made once (finish_mesh). Never null; at first every primitive takes part, moves, and may
   // meet all that it shares no vertex with.
-  std::shared_ptr<const PrimitiveFilter> filter;
-  std::shared_ptr<StaticCache> static_cache;  // not null where a filter has static primitives
-  std::shared_ptr<BufferPool> buffer_pool;        // not null where there is a filter
+  std::shared_ptr<const PrimitiveFilter> filter = all_primitives();
+  std::shared_ptr<StaticCache> static_cache;  // not null where the filter has static primitives
+  std::shared_ptr<BroadPhasePool> broad_phases;  // of earlier calls; not null once finished
 };
 
 // The largest thickness among the vertices [first, last).

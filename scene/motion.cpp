@@ -16,10 +16,13 @@ namespace {
 constexpr std::size_t kGrain = 4096;
 
 void check_shape(const char* name, int num_vertices, const Positions& x) {
-  if (x.cols() != 3 || x.rows() != num_vertices)
-    throw std::invalid_argument(std::string(name) + " has " + std::to_string(x.rows()) + " rows of " +
-                                std::to_string(x.cols()) + " coordinates; the mesh has " +
-                                std::to_string(num_vertices) + " vertices and needs one row of 3 for each");
+  if (x.cols() == 3 && x.rows() == num_vertices) return;
+  std::string why = std::string(name) + " has " + std::to_string(x.rows()) + " rows of " + std::to_string(x.cols()) +
+                    " coordinates; the mesh has " + std::to_string(num_vertices) +
+                    " vertices and needs one row of 3 for each";
+  if (x.rows() == 3 && x.cols() == num_vertices)
+    why += std::string(": pass ") + name + ".transpose(), or Positions(" + name + ".data(), #V) where it is column-major";
+  throw std::invalid_argument(why);
 }
 
 // x - y without rounding: the rounded difference and what it leaves (Knuth's two-sum; no overflow within
@@ -259,12 +262,12 @@ void check_rows(const MeshData& mesh, const char* name, const Positions& x) {
 Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
   check_rows(mesh, "x_t0", x_t0);
   check_rows(mesh, "x_t1", x_t1);
-  const bool cached = mesh.filter && mesh.filter->has_static();
-  auto still = cached ? mesh.static_cache->get<StaticMotion>(StaticCache::motion) : nullptr;
+  const bool cached = mesh.filter->has_static();
+  auto still = cached ? mesh.static_cache->motion.get() : nullptr;
   if (still)
     if (Motion m = motion_around(mesh, still, x_t0, x_t1); m.static_part) return m;
   Motion m = make_motion(mesh.num_vertices, x_t0, x_t1);
-  if (m.status != Outcome::free || !mesh.filter) return m;
+  if (m.status != Outcome::free) return m;
   bool same = still != nullptr;
   for (std::size_t k = 0; k < mesh.filter->static_ids.size(); ++k) {
     const int v = mesh.filter->static_ids[k];
@@ -277,7 +280,7 @@ Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions&
   if (!cached) return m;
   if (!same) {
     still = make_static_motion(mesh, m);
-    mesh.static_cache->put(StaticCache::motion, still);
+    mesh.static_cache->motion.put(still);
   }
   m.static_part = std::move(still);
   return m;
@@ -330,11 +333,11 @@ double Extents::largest() const {
 
 Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
   Extents r;
-  const PrimitiveFilter* filter = mesh.filter && !mesh.filter->all ? mesh.filter.get() : nullptr;
-  const auto listed = [&](Primitive kind) { return filter ? &filter->moving[std::size_t(kind)] : nullptr; };
+  const PrimitiveFilter& filter = *mesh.filter;
+  const auto listed = [&](Primitive kind) { return filter.all ? nullptr : &filter.moving[std::size_t(kind)]; };
   auto edge = largest_swept(mesh.edges, listed(Primitive::edge), m);
   auto face = largest_swept(mesh.faces, listed(Primitive::face), m);
-  if (filter && filter->has_static()) {
+  if (filter.has_static()) {
     const auto still = m.static_part ? m.static_part : make_static_motion(mesh, m);
     for (int a = 0; a < 3; ++a) {
       edge[a] = std::max(edge[a], still->widest_edge[m.axes[a]]);
@@ -342,9 +345,9 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
     }
   }
   std::array<double, 3> moved{};
-  const std::size_t vertices = filter ? filter->moving_vertices.size() : std::size_t(m.num_vertices);
+  const std::size_t vertices = filter.all ? std::size_t(m.num_vertices) : filter.moving_vertices.size();
   for (std::size_t i = 0; i < vertices; ++i) {
-    const int v = filter ? filter->moving_vertices[i] : int(i);
+    const int v = filter.all ? int(i) : filter.moving_vertices[i];
     for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], std::fabs(m.t1(v)[a] - m.t0(v)[a]));
   }
   for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor (1 + 4u)

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "base/buffer_pool.hpp"
 #include "scene/filter_counts.hpp"
 #include "scene/static_cache.hpp"
 
@@ -138,8 +137,13 @@ void finish_mesh(MeshData& mesh) {
   for (std::size_t v = 0; v < mesh.is_static.size(); ++v)
     (mesh.is_static[v] ? filter->static_ids : filter->free_ids).push_back(int(v));
   mesh.static_cache = filter->has_static() ? std::make_shared<StaticCache>() : nullptr;
-  mesh.buffer_pool = std::make_shared<BufferPool>();
+  mesh.broad_phases = std::make_shared<BroadPhasePool>();
   mesh.filter = std::move(filter);
+}
+
+std::shared_ptr<const PrimitiveFilter> all_primitives() {
+  static const auto filter = std::make_shared<const PrimitiveFilter>();
+  return filter;
 }
 
 bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b) {
@@ -168,7 +172,7 @@ bool excluded(const MeshData& mesh, PairKind kind, int a, int b) {
 }
 
 bool may_meet(const MeshData& mesh, PairKind kind, int a, int b) {
-  if (mesh.filter && mesh.filter->keeps_apart()) {
+  if (mesh.filter->keeps_apart()) {
     const PrimitiveKey& x = mesh.filter->keys[std::size_t(first_primitive(kind))][std::size_t(a)];
     const PrimitiveKey& y = mesh.filter->keys[std::size_t(second_primitive(kind))][std::size_t(b)];
     if (!keys_meet(x, y)) return false;

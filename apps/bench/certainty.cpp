@@ -32,7 +32,7 @@ void measure(const app::Scene& scene, onset::Options options, Measured& m) {
   m.seconds = std::min(m.seconds, watch.elapsed().cpu);
   m.contacts = set.size();
   m.certain = 0;
-  for (const onset::Certainty c : set.certainty) m.certain += c != onset::Certainty::within_tolerance;
+  for (const onset::Contact& c : set) m.certain += c.certainty != onset::Certainty::within_tolerance;
 }
 
 void compare(const char* name, const app::Scene& scene, double tolerance) {

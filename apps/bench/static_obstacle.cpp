@@ -65,9 +65,11 @@ struct Case {
   Case(const char* n, Sheet s, int static_from)
       : name(n), scene(std::move(s)), mesh(scene.x_t0.rows(), scene.faces) {
     if (static_from < 0) return;
-    std::vector<bool> fixed(std::size_t(scene.x_t0.rows()));
-    for (std::size_t v = std::size_t(static_from); v < fixed.size(); ++v) fixed[v] = true;
-    mesh.set_static(fixed);
+    onset::CollisionRules rules;
+    rules.static_vertices.assign(std::size_t(scene.x_t0.rows()), false);
+    for (std::size_t v = std::size_t(static_from); v < rules.static_vertices.size(); ++v)
+      rules.static_vertices[v] = true;
+    mesh.set_rules(rules);
   }
 
   void run(int vertices_of_cloth, int round) {

@@ -86,8 +86,10 @@ Vector Stepper::direction(const Goal& goal, const Vector& moved) const {
 bool Stepper::iterate(const Goal& goal, const Vector& moved, bool descend, StepReport& report) {
   const Vector dx = direction(goal, moved);
   Timer collision;
-  const onset::LineSearch search(mesh_, x_, dx, settings_.options, 0.2, d_hat_);
-  const onset::StepResult limit = search.largest_step().result;
+  onset::LineSearchOptions options = settings_.options;
+  options.d_hat = d_hat_;
+  const onset::LineSearch search(mesh_, x_, dx, options);
+  const onset::StepResult limit = search.largest_step();
   if (limit.outcome != onset::Outcome::free && limit.outcome != onset::Outcome::contact)
     throw std::runtime_error(std::string("the line search ended with ") + onset::to_string(limit.outcome));
   report.smallest_step = std::min(report.smallest_step, limit.step);

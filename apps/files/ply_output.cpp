@@ -13,10 +13,10 @@ Colour colour_of(double toi, double earliest) {
 
 std::vector<double> toi_of_vertices(const onset::ActiveSet& set, std::size_t vertices) {
   std::vector<double> toi(vertices, -1);
-  for (std::size_t i = 0; i < set.size(); ++i)
-    for (const int v : set.vertices[i]) {
+  for (const onset::Contact& contact : set)
+    for (const int v : contact.vertices) {
       double& own = toi[std::size_t(v)];
-      own = own < 0 ? set.toi[i] : std::min(own, set.toi[i]);
+      own = own < 0 ? contact.toi : std::min(own, contact.toi);
     }
   return toi;
 }

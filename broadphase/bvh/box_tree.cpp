@@ -41,7 +41,7 @@ BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const
           names_[std::size_t(out - vertices_.data()) + k * kBlock] = vertices[k];
     }
   });
-  if (mesh.filter && mesh.filter->compares_keys) make_keys(mesh);
+  if (mesh.filter->compares_keys) make_keys(mesh);
 }
 
 // See TreeView: bodies_ has all levels one after the other. Unused lanes meet no group.

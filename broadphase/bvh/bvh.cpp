@@ -16,22 +16,22 @@ class Bvh final : public BroadPhase {
  public:
   explicit Bvh(const BroadPhaseInput& input) {
     const MeshData& mesh = input.mesh;
-    const PrimitiveFilter* filter = mesh.filter.get();
-    const bool all = !filter || filter->all;
-    const bool alone = !filter || !filter->has_static();
+    const PrimitiveFilter& filter = *mesh.filter;
+    const bool all = filter.all;
+    const bool alone = !filter.has_static();
     finite_ = input.motion.status == Outcome::free;
     if (!alone && finite_) static_ = static_trees(input, made_static_);
     const FloatMap map = static_ ? static_->map : FloatMap(input.motion);
     const auto listed = [&](const std::vector<int>& ids) { return IdList{ids.data(), ids.size()}; };
     order_ = make_vertex_order(
         input.motion, map,
-        all ? IdList{nullptr, std::size_t(mesh.num_vertices)} : listed(filter->moving_vertices));
+        all ? IdList{nullptr, std::size_t(mesh.num_vertices)} : listed(filter.moving_vertices));
     parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k)
         trees_[k].emplace(mesh, kPrimitives[k],
                           !is_wanted(input, kPrimitives[k]) ? IdList{nullptr, 0}
                           : all ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])}
-                                : listed(filter->moving[k]),
+                                : listed(filter.moving[k]),
                           order_, alone);
     });
     roughness_ = roughness(order_, input.motion);
@@ -47,7 +47,7 @@ class Bvh final : public BroadPhase {
 
   void refit(const BroadPhaseInput& input) override {
     finite_ = input.motion.status == Outcome::free;
-    if (finite_ && input.mesh.filter && input.mesh.filter->has_static()) {
+    if (finite_ && input.mesh.filter->has_static()) {
       bool made = false;
       static_ = static_trees(input, made);
       made_static_ = made;

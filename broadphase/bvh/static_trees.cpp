@@ -3,6 +3,13 @@
 #include "scene/static_cache.hpp"
 
 namespace onset {
+namespace {
+
+std::size_t slot_of(bool swept, const std::array<int, 3>& axes) {
+  return std::size_t(swept) * 9 + std::size_t(3 * axes[0] + axes[1]);
+}
+
+}  // namespace
 
 StaticTrees::StaticTrees(const BroadPhaseInput& input, double by)
     : motion(input.motion.static_part), inflation(by), map(input.motion), separates(map.suits(input.motion)) {
@@ -19,14 +26,14 @@ StaticTrees::StaticTrees(const BroadPhaseInput& input, double by)
 }
 
 std::shared_ptr<const StaticTrees> static_trees(const BroadPhaseInput& input, bool& made) {
-  const StaticCache::Slot slot = StaticCache::trees(input.test == BoxTest::swept, input.motion.axes);
+  const std::size_t slot = slot_of(input.test == BoxTest::swept, input.motion.axes);
   const double inflation = part_inflation(input, true);
-  auto trees = input.mesh.static_cache->get<StaticTrees>(slot);
+  auto trees = input.mesh.static_cache->trees.get(slot);
   made = !trees || !input.motion.static_part || trees->motion != input.motion.static_part ||
          trees->inflation != inflation || (trees->separates && !trees->map.suits(input.motion));
   if (!made) return trees;
   trees = std::make_shared<const StaticTrees>(input, inflation);
-  input.mesh.static_cache->put(slot, trees);
+  input.mesh.static_cache->trees.put(trees, slot);
   return trees;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/buffer_pool.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "narrowphase/narrow_phase.hpp"
@@ -15,7 +14,7 @@ namespace onset {
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test) {
   const double half = 0.5 * options.min_separation * (1 + 0x1p-50);
-  const bool has_static = mesh.filter && mesh.filter->has_static();
+  const bool has_static = mesh.filter->has_static();
   const double inflation =
       has_static ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
   return {mesh, motion, inflation, t_max, test, options.instruction_set, half};
@@ -25,16 +24,16 @@ namespace {
 
 // Only trees and grids are worth keeping: swept and motion boxes in slots of their own.
 bool is_kept(BroadPhaseMethod method) { return method != BroadPhaseMethod::brute; }
-BufferPool::Slot slot_of(BroadPhaseMethod method, BoxTest test) {
-  return 2 * BufferPool::Slot(method == BroadPhaseMethod::hash) + BufferPool::Slot(test == BoxTest::swept);
+std::size_t slot_of(BroadPhaseMethod method, BoxTest test) {
+  return 2 * std::size_t(method == BroadPhaseMethod::hash) + std::size_t(test == BoxTest::swept);
 }
 
 // The one that an earlier call left, where its order will do. Under a budget of checks what is found depends
 // on the order: it must not depend on earlier calls.
 std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const BroadPhaseInput& input,
                                              const Budget& budget) {
-  if (input.mesh.buffer_pool && is_kept(options.broad_phase) && !budget.counts_checks()) {
-    auto used = input.mesh.buffer_pool->take<BroadPhase>(slot_of(options.broad_phase, input.test));
+  if (input.mesh.broad_phases && is_kept(options.broad_phase) && !budget.counts_checks()) {
+    auto used = input.mesh.broad_phases->take(slot_of(options.broad_phase, input.test));
     if (used && used->suits(input.motion)) {
       used->refit(input);
       return used;
@@ -61,7 +60,7 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
              Stats& stats, Budget& budget, double d_hat) {
   const MeshData& data = mesh.data();
   motion = make_motion(data, x_t0, x_t1);
-  if (data.filter) stats.filter_counts = data.filter->counts;
+  stats.filter_counts = data.filter->counts;
   stats.threads = current_threads();
   stats.instruction_set = to_string(resolve_instruction_set(options.instruction_set));
   if (motion.status != Outcome::free) return;
@@ -75,7 +74,7 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
   const double margin = test != BoxTest::swept && widened ? reach : 0;
   whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
   tree.emplace(*whole);
-  const bool has_static = data.filter && data.filter->has_static();
+  const bool has_static = data.filter->has_static();
   const double share = has_static ? 1 : 0.5;  // boxes that are static are not widened: the others take all of it
   if (use != Use::contacts) rounding = rounding_of_distances(motion);
   if (use == Use::stored_step) widen(share * (reach + kStoredRoundings * rounding - margin));
@@ -85,7 +84,7 @@ Scene::Scene(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, con
         std::max(tree->inflation, share * euclidean_reach(data, options, std::max(d_hat, reach), rounding));
   if (budget.spent()) return;
   broad = take_broad_phase(options, *tree, budget);
-  if (is_kept(options.broad_phase)) pool_ = data.buffer_pool;
+  if (is_kept(options.broad_phase)) pool_ = data.broad_phases;
   slot_ = slot_of(options.broad_phase, test);
   stats.broad_phase = broad->name();
   stats.made_static_boxes = broad->made_static_boxes();

@@ -44,7 +44,7 @@ struct Scene {
  private:
   void widen(double by);
 
-  std::shared_ptr<BufferPool> pool_;
+  std::shared_ptr<BroadPhasePool> pool_;
   std::size_t slot_ = 0;
 };
 

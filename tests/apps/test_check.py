@@ -88,7 +88,7 @@ class Check(AppTest):
         self.assertEqual(result["copied_vertices"], [[1, 3], [2, 5]])
         self.assertNotIn("copies_that_part", result)
         said = self.say(a)
-        for words in ["vertices 1 and 3 are at one place", "vertices 2 and 5 are at one place", "--weld", "set_weld"]:
+        for words in ["vertices 1 and 3 are at one place", "vertices 2 and 5 are at one place", "--weld", "rules.weld"]:
             self.assertIn(words, said)
         for end, together, parting in [(b, [[1, 3], [2, 5]], []), (torn, [[1, 3]], [[2, 5]])]:
             result = self.check(NOT_CLEAN, a, end)

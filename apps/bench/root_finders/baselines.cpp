@@ -42,7 +42,7 @@ struct Settings {
 Finder onset_with(const onset::Options& options) {
   return [options](onset::PairKind kind, const app::TruthQuery& query) {
     const onset::QueryResult r = app::ask(kind, query, options);
-    return app::FinderAnswer{r.collides(), r.toi, r.outcome == onset::Outcome::max_checks};
+    return app::FinderAnswer{r.collides(), r.toi, r.outcome == onset::PairOutcome::max_checks};
   };
 }
 

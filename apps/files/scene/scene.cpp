@@ -89,7 +89,9 @@ onset::Mesh make_mesh(const MeshFile& file) {
   try {
     const Faces faces = triangulate(file);
     onset::Mesh mesh(file.positions.rows(), all_edges(faces, file.wires), faces);
-    if (!file.points.empty()) mesh.set_points(lone_points(mesh, file.points));
+    onset::CollisionRules rules;
+    if (!file.points.empty()) rules.points = lone_points(mesh, file.points);
+    mesh.set_rules(rules);
     return mesh;
   } catch (const std::invalid_argument& e) {  // more than its ids can number, say
     throw InputError(file.path + ": " + e.what());

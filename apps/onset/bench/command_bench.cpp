@@ -36,7 +36,9 @@ Scene to_scene(Frames frames) {
 Scene read_refined(const Inputs& inputs, int times) {
   Scene scene = read_scene(inputs.a, inputs.b);
   if (times == 0) {
-    if (inputs.weld) scene.mesh.set_weld(true);
+    onset::CollisionRules rules = scene.mesh.rules();
+    rules.weld = inputs.weld;
+    scene.mesh.set_rules(rules);
     return scene;
   }
   Frames frames{std::move(scene.x_t0), std::move(scene.x_t1), faces_of(scene.mesh)};

@@ -46,10 +46,10 @@ std::uint64_t bits(double x) {
 
 std::uint64_t hash_of(const onset::ActiveSet& set) {
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    hash = mix(hash, std::uint64_t(set.kind[i]) << 8 | std::uint64_t(set.status[i]));
-    hash = mix(hash, std::uint64_t(std::uint32_t(set.a[i])) << 32 | std::uint32_t(set.b[i]));
-    hash = mix(hash, bits(set.toi[i]));
+  for (const onset::Contact& contact : set) {
+    hash = mix(hash, std::uint64_t(contact.kind) << 8 | std::uint64_t(contact.outcome));
+    hash = mix(hash, std::uint64_t(std::uint32_t(contact.a)) << 32 | std::uint32_t(contact.b));
+    hash = mix(hash, bits(contact.toi));
   }
   return hash;
 }
@@ -83,7 +83,7 @@ SceneCost bench_scene(const Scene& scene, const onset::Options& options, int rep
     return (step = onset::compute_collision_free_stepsize(scene.mesh, scene.x_t0, scene.x_t1, options)).stats;
   };
   const auto run_pairs = [&] {
-    return (candidates = onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1, options, false)).stats;
+    return (candidates = onset::count_candidates(scene.mesh, scene.x_t0, scene.x_t1, options)).stats;
   };
   std::array<Call, 3> calls{{{run_set, same_set, {}, {}, {}, {}, {}},
                              {run_step, nothing, {}, {}, {}, {}, {}},

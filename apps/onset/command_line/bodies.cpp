@@ -45,14 +45,17 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
 
 void set_bodies(const BodyArguments& a, Scene& scene) {
   onset::Mesh& mesh = scene.mesh;
-  if (a.bodies == "components") mesh.set_bodies(mesh.components());
+  onset::CollisionRules rules = mesh.rules();
+  if (a.bodies == "components") rules.bodies = mesh.components();
+  mesh.set_rules(rules);
   const int count = mesh.num_bodies();
   const std::vector<bool> fixed = flags("--static-body", a.fixed, count);
   std::vector<bool> rigid = flags("--rigid-body", a.rigid, count);
   if (a.all_rigid) rigid.assign(rigid.size(), true);
-  if (!a.fixed.empty()) mesh.set_static(mesh.of_bodies(fixed));
-  if (a.all_rigid || !a.rigid.empty()) mesh.set_rigid(rigid);
-  if (a.weld) mesh.set_weld(true), scene.welded = true;
+  if (!a.fixed.empty()) rules.static_vertices = mesh.of_bodies(fixed);
+  if (a.all_rigid || !a.rigid.empty()) rules.rigid_bodies = rigid;
+  if (a.weld) rules.weld = scene.welded = true;
+  mesh.set_rules(rules);
 }
 
 }  // namespace app

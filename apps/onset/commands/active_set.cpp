@@ -15,17 +15,17 @@ onset::ActiveSet compute(const Scene& scene, const onset::Options& options) {
 }
 
 bool starts_in_contact(const onset::ActiveSet& set) {
-  return std::count(set.status.begin(), set.status.end(), onset::Outcome::initial_contact) > 0;
+  return std::any_of(set.begin(), set.end(), [](const onset::Contact& contact) {
+    return contact.outcome == onset::PairOutcome::initial_contact;
+  });
 }
 
 std::string summary(const onset::ActiveSet& set) {
-  const std::ptrdiff_t first = set.earliest();
-  std::string text = format("outcome     %s\ncontacts    %s\n", onset::to_string(set.outcome),
+  std::string text = format("outcome     %s\ncontacts    %s\n", outcome_name(set.outcome),
                             describe(set.stats.contacts).c_str());
   if (set.vertex >= 0) text += format("vertex      %d\n", set.vertex);
-  if (first >= 0)
-    text += format("earliest    t = %.17g, %s\n", set.toi[std::size_t(first)],
-                   describe(set.pair(std::size_t(first))).c_str());
+  if (const onset::Contact* first = set.earliest())
+    text += format("earliest    t = %.17g, %s\n", first->toi, describe(*first).c_str());
   return text + describe_stats(set.stats);
 }
 

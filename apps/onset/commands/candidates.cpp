@@ -8,7 +8,8 @@ namespace {
 
 onset::Candidates compute(const Scene& scene, const onset::Options& options, bool list) {
   const Progress progress("candidates");
-  return onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1, options, list);
+  return list ? onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1, options)
+              : onset::count_candidates(scene.mesh, scene.x_t0, scene.x_t1, options);
 }
 
 void write_rows(Output& csv, const char* kind, const std::vector<std::array<int, 2>>& pairs) {
@@ -36,7 +37,7 @@ void write_csv(Output& csv, const onset::Candidates& candidates) {
 Json candidates_json(const onset::Candidates& c) {
   Json json = {{"candidates", to_json(c.counts)},
                {"seconds", seconds_json(c.stats)},
-               {"outcome", onset::to_string(c.outcome)}};
+               {"outcome", outcome_name(c.outcome)}};
   if (c.vertex >= 0) json["vertex"] = c.vertex;
   json["stats"] = to_json(c.stats);
   return json;

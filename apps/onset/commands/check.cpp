@@ -20,8 +20,10 @@ struct Inputs : Arguments, BodyArguments {
 void join_copies(const Inputs& inputs, Scene& scene) {
   if (!inputs.weld || inputs.b.empty()) return;
   if (copies_together(scene.x_t0, scene.x_t1) == copies_together(scene.x_t0, scene.x_t0)) return;
-  scene.mesh.set_weld(false);
-  scene.mesh.set_excluded_vertices(at_the_end(onset::duplicate_vertices(scene.x_t0), scene.x_t1).together);
+  onset::CollisionRules rules = scene.mesh.rules();
+  rules.weld = false;
+  rules.excluded_vertices = at_the_end(onset::duplicate_vertices(scene.x_t0), scene.x_t1).together;
+  scene.mesh.set_rules(rules);
 }
 
 onset::StartReport look(const Scene& scene, const onset::Options& options) {

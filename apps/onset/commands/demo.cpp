@@ -37,7 +37,7 @@ DemoResult compute(const DemoScene& scene, const onset::Mesh& mesh, const onset:
 
 std::vector<Colour> colours(const DemoResult& r) {
   double earliest = 1;
-  for (const double toi : r.whole.toi) earliest = std::min(earliest, toi);
+  for (const onset::Contact& contact : r.whole) earliest = std::min(earliest, contact.toi);
   std::vector<Colour> result;
   for (const double toi : toi_of_vertices(r.whole, std::size_t(r.x.rows()))) result.push_back(colour_of(toi, earliest));
   return result;

@@ -27,7 +27,7 @@ struct Tally {
     positives += result.collides();
     false_negatives += truth && !result.collides();
     false_positives += !truth && result.collides();
-    budget += result.outcome == onset::Outcome::max_checks;
+    budget += result.outcome == onset::PairOutcome::max_checks;
     tolerance = std::max(tolerance, result.tolerance);
   }
   void add(const Tally& other) {
@@ -73,7 +73,7 @@ void run_file(FileTally& file, const onset::Options& options, Output* csv, Progr
     file.tally.add(result, queries[i].collides, us);
     if (csv)
       csv->write(format("%s,%zu,%s,%s,%.17g\n", name.c_str(), i, kind_name(file.kind),
-                        onset::to_string(result.outcome), result.toi));
+                        outcome_name(result.outcome), result.toi));
     progress.advance();
   }
 }

@@ -22,7 +22,7 @@ struct Replayed {
 };
 
 std::string compare(const onset::QueryResult& r, const Expectation::Answer& e) {
-  if (e.outcome != onset::to_string(r.outcome)) return "differs: outcome was " + e.outcome;
+  if (e.outcome != outcome_name(r.outcome)) return "differs: outcome was " + e.outcome;
   if (e.toi != r.toi) return format("differs: toi was %.17g", e.toi);
   if (e.checks != r.checks) return format("differs: took %lld checks", static_cast<long long>(e.checks));
   return "same";
@@ -50,7 +50,7 @@ Json to_json(const std::vector<Replayed>& rows, std::size_t differing) {
     json["queries"].push_back({{"file", r.file},
                                {"index", r.index},
                                {"kind", kind_name(r.kind)},
-                               {"outcome", onset::to_string(r.result.outcome)},
+                               {"outcome", outcome_name(r.result.outcome)},
                                {"toi", r.result.toi},
                                {"checks", r.result.checks},
                                {"verdict", r.verdict.empty() ? Json() : Json(r.verdict)}});
@@ -61,7 +61,7 @@ std::string describe(const std::vector<Replayed>& rows, std::size_t differing) {
   std::string text = "kind outcome            toi                      checks  verdict\n";
   for (const Replayed& r : rows)
     text += format("%-4s %-18s %-23.17g %7lld  %s  %s %zu\n", kind_name(r.kind),
-                   onset::to_string(r.result.outcome), r.result.toi, static_cast<long long>(r.result.checks),
+                   outcome_name(r.result.outcome), r.result.toi, static_cast<long long>(r.result.checks),
                    r.verdict.empty() ? "-" : r.verdict.c_str(), r.file.c_str(), r.index);
   return text + format("%zu queries, %zu differ from their dump\n", rows.size(), differing);
 }
@@ -85,7 +85,7 @@ void run_replay(const Inputs& inputs) {
     outputs.csv()->write("index,kind,outcome,toi,checks,verdict\n");
     for (const Replayed& r : rows)
       outputs.csv()->write(format("%zu,%s,%s,%.17g,%lld,%s\n", r.index, kind_name(r.kind),
-                                  onset::to_string(r.result.outcome), r.result.toi,
+                                  outcome_name(r.result.outcome), r.result.toi,
                                   static_cast<long long>(r.result.checks), r.verdict.c_str()));
   }
   outputs.finish(to_json(rows, differing), describe(rows, differing));

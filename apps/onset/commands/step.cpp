@@ -12,13 +12,12 @@ constexpr char kColumns[] = "outcome,step,kind,a,b,v0,v1,v2,v3,toi,toi_hi,roundi
 
 void write_csv(Output& csv, const onset::StepResult& r) {
   csv.write(std::string(kColumns) + "\n");
-  csv.write(format("%s,%.17g,", onset::to_string(r.outcome), r.step));
-  const auto& v = r.limiting.vertices;
-  if (r.limiting.a < 0)
-    csv.write(",,,,,,");
+  csv.write(format("%s,%.17g,", outcome_name(r.outcome), r.step));
+  if (const std::optional<onset::Pair>& p = r.limiting)
+    csv.write(format("%s,%d,%d,%d,%d,%d,%d", kind_name(p->kind), p->a, p->b, p->vertices[0], p->vertices[1],
+                     p->vertices[2], p->vertices[3]));
   else
-    csv.write(format("%s,%d,%d,%d,%d,%d,%d", kind_name(r.limiting.kind), r.limiting.a, r.limiting.b, v[0],
-                     v[1], v[2], v[3]));
+    csv.write(",,,,,,");
   csv.write(format(",%.17g,%.17g,%.17g\n", r.toi, r.toi_hi, r.rounding));
 }
 

@@ -19,27 +19,27 @@ struct Exporter {
   const onset::ActiveSet& set;
 
   double earliest() const {
-    const std::ptrdiff_t i = set.earliest();
-    return i < 0 ? 1 : set.toi[std::size_t(i)];
+    const onset::Contact* first = set.earliest();
+    return first == nullptr ? 1 : first->toi;
   }
 
   PlyLayer contacts() const {
     PlyLayer layer;
-    for (std::size_t i = 0; i < set.size(); ++i) {
+    for (const onset::Contact& contact : set) {
       onset::Point middle{};
       for (std::size_t k = 0; k < 4; ++k) {
-        const int v = set.vertices[i][k];
-        const onset::Point x = mix(point(scene.x_t0, v), point(scene.x_t1, v), set.toi[i]);
-        for (std::size_t a = 0; a < 3; ++a) middle[a] += 0.5 * std::abs(set.weight[i][k]) * x[a];
+        const int v = contact.vertices[k];
+        const onset::Point x = mix(point(scene.x_t0, v), point(scene.x_t1, v), contact.toi);
+        for (std::size_t a = 0; a < 3; ++a) middle[a] += 0.5 * std::abs(contact.weights[k]) * x[a];
       }
-      layer.add(middle, set.toi[i], set.normal[i]);
+      layer.add(middle, contact.toi, contact.normal);
     }
     return layer;
   }
 
   PlyLayer candidates(const onset::Candidates& pairs) const {
     std::map<std::array<int, 3>, double> toi;  // kind, a, b
-    for (std::size_t i = 0; i < set.size(); ++i) toi[{int(set.kind[i]), set.a[i], set.b[i]}] = set.toi[i];
+    for (const onset::Contact& contact : set) toi[{int(contact.kind), contact.a, contact.b}] = contact.toi;
     PlyLayer layer;
     const auto add = [&](onset::PairKind kind, const std::array<int, 2>& p, const onset::Point& a,
                          const onset::Point& b) {
@@ -63,15 +63,15 @@ struct Exporter {
       const auto ids = scene.mesh.face(f);
       layer.faces.push_back({ids[0], ids[1], ids[2]});
     }
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      const auto& v = set.vertices[i];
-      if (set.kind[i] == onset::PairKind::vertex_face) {
-        const int from = layer.add(point(scene.x_t0, v[0]), set.toi[i]);
-        layer.edges.push_back({from, layer.add(point(scene.x_t1, v[0]), set.toi[i])});
-        for (std::size_t c = 0; c < 3; ++c) sweep(layer, v[1 + c], v[1 + (c + 1) % 3], set.toi[i]);
+    for (const onset::Contact& contact : set) {
+      const auto& v = contact.vertices;
+      if (contact.kind == onset::PairKind::vertex_face) {
+        const int from = layer.add(point(scene.x_t0, v[0]), contact.toi);
+        layer.edges.push_back({from, layer.add(point(scene.x_t1, v[0]), contact.toi)});
+        for (std::size_t c = 0; c < 3; ++c) sweep(layer, v[1 + c], v[1 + (c + 1) % 3], contact.toi);
       } else {
-        sweep(layer, v[0], v[1], set.toi[i]);
-        sweep(layer, v[2], v[3], set.toi[i]);
+        sweep(layer, v[0], v[1], contact.toi);
+        sweep(layer, v[2], v[3], contact.toi);
       }
     }
     return layer;

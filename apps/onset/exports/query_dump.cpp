@@ -72,7 +72,7 @@ std::vector<std::string> write_dump(const std::string& path, const std::vector<D
       queries.push_back({{"a", dumped.pair.a},
                          {"b", dumped.pair.b},
                          {"why", dumped.why},
-                         {"outcome", onset::to_string(r.outcome)},
+                         {"outcome", outcome_name(r.outcome)},
                          {"toi", r.toi},
                          {"checks", r.checks}});
     }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kDumpedContacts = 64;
 
 void add_worst(std::vector<DumpedPair>& pairs, const onset::Stats& stats) {
-  if (stats.worst.a >= 0) pairs.push_back({stats.worst, "worst"});
+  if (stats.worst) pairs.push_back({*stats.worst, "worst"});
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void write_files(const SceneFiles& files, const Scene& scene, const onset::Optio
                  const onset::StepResult& result) {
   if (!files.dump.empty()) {
     std::vector<DumpedPair> pairs;
-    if (result.limiting.a >= 0) pairs.push_back({result.limiting, "limiting"});
+    if (result.limiting) pairs.push_back({*result.limiting, "limiting"});
     add_worst(pairs, result.stats);
     write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, result.stats.tolerance);
   }
@@ -53,11 +53,11 @@ void write_files(const SceneFiles& files, const Scene& scene, const onset::Optio
     std::vector<std::size_t> order(set.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t j) { return set.toi[i] < set.toi[j]; });
+                     [&](std::size_t i, std::size_t j) { return set[i].toi < set[j].toi; });
     std::vector<DumpedPair> pairs;
     for (std::size_t k = 0; k < order.size(); ++k) {
-      const bool budget = set.status[order[k]] == onset::Outcome::max_checks;
-      if (k < kDumpedContacts || budget) pairs.push_back({set.pair(order[k]), budget ? "budget" : "contact"});
+      const bool gave_up = set[order[k]].outcome == onset::PairOutcome::max_checks;
+      if (k < kDumpedContacts || gave_up) pairs.push_back({set[order[k]], gave_up ? "budget" : "contact"});
     }
     add_worst(pairs, set.stats);
     write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, set.stats.tolerance);

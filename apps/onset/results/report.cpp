@@ -12,9 +12,17 @@ Json to_json(const onset::PairCounts& counts) {
   return {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
 }
 
+const char* outcome_name(onset::Outcome outcome) {
+  return outcome == onset::Outcome::max_checks ? "budget" : onset::to_string(outcome);
+}
+const char* outcome_name(onset::PairOutcome outcome) {
+  return outcome == onset::PairOutcome::max_checks ? "budget" : onset::to_string(outcome);
+}
+
 Json to_json(const onset::Pair& pair) {
-  if (pair.a < 0) return nullptr;
   return {{"kind", kind_name(pair.kind)}, {"a", pair.a}, {"b", pair.b}, {"vertices", pair.vertices}};
+}
+Json to_json(const std::optional<onset::Pair>& pair) { return pair ? to_json(*pair) : Json();
 }
 
 namespace {
@@ -83,32 +91,32 @@ static void add_certainty(Json& json, onset::Certainty certainty, double toi_hi)
 }
 
 Json step_json(const onset::StepResult& r) {
-  Json json = {{"outcome", onset::to_string(r.outcome)}, {"step", r.step},
+  Json json = {{"outcome", outcome_name(r.outcome)}, {"step", r.step},
                {"limiting", to_json(r.limiting)},        {"candidates", to_json(r.stats.candidates)},
                {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance},
                {"toi", time_json(r.toi)},                {"rounding", r.rounding},
                {"shortest", r.shortest}};
-  if (r.limiting.a >= 0) add_certainty(json["limiting"], r.certainty, r.toi_hi);
+  if (r.limiting) add_certainty(json["limiting"], r.certainty, r.toi_hi);
   if (r.vertex >= 0) json["vertex"] = r.vertex;
   json["stats"] = to_json(r.stats);
   return json;
 }
 
 Json active_set_json(const onset::ActiveSet& set) {
-  const std::ptrdiff_t first = set.earliest();
+  const onset::Contact* first = set.earliest();
   Json pair = nullptr;
-  if (first >= 0) {
-    pair = to_json(set.pair(std::size_t(first)));
-    pair["toi"] = set.toi[std::size_t(first)];
-    pair["status"] = onset::to_string(set.status[std::size_t(first)]);
-    add_certainty(pair, set.certainty[std::size_t(first)], set.toi_hi[std::size_t(first)]);
+  if (first != nullptr) {
+    pair = to_json(static_cast<const onset::Pair&>(*first));
+    pair["toi"] = first->toi;
+    pair["status"] = outcome_name(first->outcome);
+    add_certainty(pair, first->certainty, first->toi_hi);
   }
   Json json = {{"contacts", to_json(set.stats.contacts)},
-               {"earliest", first < 0 ? Json() : Json(set.toi[std::size_t(first)])},
+               {"earliest", first == nullptr ? Json() : Json(first->toi)},
                {"candidates", to_json(set.stats.candidates)},
                {"seconds", seconds_json(set.stats)},
                {"earliest_pair", pair},
-               {"outcome", onset::to_string(set.outcome)},
+               {"outcome", outcome_name(set.outcome)},
                {"tolerance", set.stats.tolerance}};
   if (set.vertex >= 0) json["vertex"] = set.vertex;
   json["complete_until"] = std::isinf(set.complete_until) ? Json() : Json(set.complete_until);
@@ -118,16 +126,14 @@ Json active_set_json(const onset::ActiveSet& set) {
 
 void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
   csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit\n");
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const auto& v = set.vertices[i];
-    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(set.kind[i]), set.a[i], set.b[i], set.toi[i],
-                     v[0], v[1], v[2], v[3], onset::to_string(set.status[i]), onset::to_string(set.certainty[i]),
-                     set.toi_hi[i]));
-    const auto& w = set.weight[i];
-    const auto& n = set.normal[i];
-    for (const double x : {w[0], w[1], w[2], w[3], n[0], n[1], n[2], set.gap[i], set.speed[i]})
-      csv.write(format(",%.17g", x));
-    csv.write(format(",%d,%.17g\n", int(set.degenerate[i]), set.step_limit[i]));
+  for (const onset::Contact& c : set) {
+    const auto& v = c.vertices;
+    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(c.kind), c.a, c.b, c.toi, v[0], v[1], v[2],
+                     v[3], outcome_name(c.outcome), onset::to_string(c.certainty), c.toi_hi));
+    const auto& w = c.weights;
+    const auto& n = c.normal;
+    for (const double x : {w[0], w[1], w[2], w[3], n[0], n[1], n[2], c.gap, c.speed}) csv.write(format(",%.17g", x));
+    csv.write(format(",%d,%.17g\n", int(c.degenerate), c.step_limit));
   }
 }
 
@@ -137,7 +143,6 @@ std::string describe_edge(int edge, int v, int w) {
 }
 
 std::string describe(const onset::Pair& pair) {
-  if (pair.a < 0) return "none";
   const auto& v = pair.vertices;
   if (pair.kind == onset::PairKind::vertex_face)
     return format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3]);
@@ -151,7 +156,7 @@ std::string describe(const onset::PairCounts& c) {
 
 std::string describe_step(const onset::StepResult& r) {
   std::string text = format("outcome     %s\nstep        %.17g\nlimited by  %s\n",
-                            onset::to_string(r.outcome), r.step, describe(r.limiting).c_str());
+                            outcome_name(r.outcome), r.step, r.limiting ? describe(*r.limiting).c_str() : "none");
   if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
   text += std::isfinite(r.toi) ? format("touches     t = %.17g, on the exact motion\n", r.toi) : "touches     never\n";
   return text + format("rounding    %.3g, what storing the end of the step may change\n", r.rounding);

@@ -1,9 +1,12 @@
 // The pieces that the subcommands' results share, as JSON, CSV and words.
 #pragma once
 
+#include <onset/active_set.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>
+#include <onset/step_size.hpp>
+#include <optional>
 #include <string>
 
 #include "measure/timing.hpp"
@@ -13,7 +16,11 @@ namespace app {
 
 const char* norm_name(onset::Norm norm);        // "euclidean" or "maximum"
 Json to_json(const onset::PairCounts& counts);  // {vf, ee}
-Json to_json(const onset::Pair& pair);          // {kind, a, b, vertices}, null for no pair
+// An outcome in the words of the output: max_checks is "budget" there.
+const char* outcome_name(onset::Outcome outcome);
+const char* outcome_name(onset::PairOutcome outcome);
+Json to_json(const onset::Pair& pair);                 // {kind, a, b, vertices}
+Json to_json(const std::optional<onset::Pair>& pair);  // null for none
 Json to_json(const onset::FilterCounts& plan);
 Json to_json(const onset::Stats& stats);
 Json seconds_json(const onset::Stats& stats);  // {broad, narrow, total}

@@ -121,7 +121,7 @@ std::string describe(const StartFindings& f) {
   const onset::StartReport& r = f.report;
   std::string text = "start       ";
   if (r.outcome != onset::Outcome::free)
-    text += format("not known: %s\n", onset::to_string(r.outcome));
+    text += format("not known: %s\n", outcome_name(r.outcome));
   else if (r.clean())
     text += "clean\n";
   else
@@ -137,7 +137,7 @@ std::string describe(const StartFindings& f) {
 
 Json to_json(const StartFindings& f) {
   const onset::StartReport& r = f.report;
-  Json json = {{"clean", r.clean()}, {"acceptable", r.acceptable()}, {"outcome", onset::to_string(r.outcome)}};
+  Json json = {{"clean", r.clean()}, {"acceptable", r.acceptable()}, {"outcome", outcome_name(r.outcome)}};
   if (r.vertex >= 0) json["vertex"] = r.vertex;
   json["findings"] = Json::array();
   for (const onset::StartFinding& finding : r.findings)

@@ -17,8 +17,7 @@ struct Found {
 
 std::vector<Found> found(const onset::ActiveSet& set) {
   std::vector<Found> rows;
-  for (std::size_t i = 0; i < set.size(); ++i)
-    rows.push_back({pair_key(set.kind[i], set.a[i], set.b[i]), set.toi[i]});
+  for (const onset::Contact& c : set) rows.push_back({pair_key(c.kind, c.a, c.b), c.toi});
   return rows;
 }
 
@@ -87,10 +86,10 @@ class SceneSubject : public Subject {
   void fill(Answers& a, const onset::ActiveSet& set, const onset::Options& options) const {
     const onset::Stats& s = set.stats;
     a.asked = s.candidates.total(), a.positives = std::int64_t(set.size());
-    for (const onset::Certainty c : set.certainty) a.certain += c != onset::Certainty::within_tolerance;
+    for (const onset::Contact& c : set) a.certain += c.certainty != onset::Certainty::within_tolerance;
     a.budget = s.gave_up.total(), a.inclusion = s.inclusion.total(), a.checks = s.checks;
     a.tolerance = s.tolerance, a.achieved_tolerance = s.achieved_tolerance;
-    if (const std::ptrdiff_t first = set.earliest(); first >= 0) a.earliest = set.toi[std::size_t(first)];
+    if (const onset::Contact* first = set.earliest()) a.earliest = first->toi;
     const std::vector<Found> rows = found(set);
     if (has_truth_) compare_with_truth(a, rows, options);
     if (exact_times_ == 0 && same_question(options, reference_options_)) {

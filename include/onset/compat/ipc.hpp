@@ -1,7 +1,7 @@
 // The calls of ipc-toolkit's collision detection by their names there, so that code for it compiles after
 // changing an include and a namespace: ipc::compute_collision_free_stepsize becomes
 // onset::ipc::compute_collision_free_stepsize. 3D surfaces, linear motion. What onset says beyond a number
-// (outcome, limiting pair) is in onset/pipeline.hpp.
+// (outcome, limiting pair) is in onset/step_size.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 #include <onset/candidates.hpp>
 #include <onset/intersections.hpp>
 #include <onset/line_search.hpp>
-#include <onset/pipeline.hpp>
+#include <onset/step_size.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -52,7 +52,9 @@ class CollisionMesh {
       for (Eigen::Index i = 0; i < ids->size(); ++i) used[std::size_t(ids->data()[i])] = true;
     std::copy_if(full_vertex_.begin(), full_vertex_.end(), std::back_inserter(codim_vertices_),
                  [&](int v) { return !used[std::size_t(v)]; });
-    if (!codim_vertices_.empty()) mesh_.set_points(codim_vertices_);
+    CollisionRules rules;
+    rules.points = codim_vertices_;
+    mesh_.set_rules(rules);
   }
 
   // The surface's vertices are those of the full mesh that an edge or a face uses, in their order.
@@ -289,9 +291,9 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
     candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
     return candidates.compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1, min_distance, ccd);
   }
-  const LineSearch search(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0),
-                          options_of(min_distance, ccd), 1 - ccd.conservative_rescaling);
-  return search.largest_step().result.step;
+  LineSearchOptions options = options_of(min_distance, ccd);
+  options.gap_share = 1 - ccd.conservative_rescaling;
+  return LineSearch(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0), options).largest_step().step;
 }
 
 // Whether an edge and a face without a common vertex have a common point, exactly; a touch is one. Also true
