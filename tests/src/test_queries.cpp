@@ -43,7 +43,7 @@ std::vector<Options> ways_to_ask() {
   std::vector<Options> all(6);
   for (Options& o : all) o.tolerance = 1e-6;
   all[1].exactness = Exactness::exact, all[2].exactness = Exactness::conservative;
-  all[3].min_separation = 0.01, all[4].min_separation = 0.01, all[4].norm = Norm::maximum;
+  all[3].min_separation = 0.3, all[4].min_separation = 0.01, all[4].norm = Norm::maximum;
   all[5].touching_may_pass_through = true, all[5].max_checks = 20;
   return all;
 }
