@@ -115,7 +115,8 @@ void name_pairs(const Mesh& mesh, Rules& rules, Random& random) {
   for (int i = scenes::integer(random, 0, 100); i > 0; --i) {
     rules.excluded_pairs.push_back({PairKind::vertex_face, id(V), id(F), {}});
     rules.excluded_intersections.push_back({id(E), id(F), IntersectionKind::touching, {}});
-    if (const int e = id(E), g = id(E); e != g) rules.excluded_pairs.push_back({PairKind::edge_edge, e, g, {}});
+    if (const int e = id(E), g = id(E); e != g)
+      rules.excluded_pairs.push_back({PairKind::edge_edge, e, g, {}});
   }
 }
 

@@ -31,7 +31,8 @@ static std::string wrong_outcome(const scenes::Query& query, const Options& opti
   if (outcome == PairOutcome::non_finite || outcome == PairOutcome::out_of_range)
     return "an outcome for bad positions";
   if (initial && result.toi != 0) return "starts in contact, but toi is not 0";
-  if (outcome == PairOutcome::contact && result.toi == 0) return "a contact at toi 0 that is not called initial";
+  if (outcome == PairOutcome::contact && result.toi == 0)
+    return "a contact at toi 0 that is not called initial";
   const bool within = compare_distance(query, 0, options.min_separation, options.norm) <= 0;
   if (within && !initial) return "starts within the separation, not said";
   if (outcome == PairOutcome::initial_separating) {

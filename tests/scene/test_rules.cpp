@@ -299,7 +299,8 @@ TEST_CASE("points are vertices of no edge or face, each once, after the edges", 
 TEST_CASE("a mesh made of nothing is one without vertices, to be assigned to", "[unit]") {
   const Eigen::MatrixXd none(0, 3);
   Mesh mesh;
-  CHECK((mesh.num_vertices() == 0 && mesh.num_edges() == 0 && mesh.num_faces() == 0 && mesh.num_points() == 0));
+  CHECK((mesh.num_vertices() == 0 && mesh.num_edges() == 0));
+  CHECK((mesh.num_faces() == 0 && mesh.num_points() == 0));
   CHECK((mesh.num_bodies() == 1 && mesh.num_full_vertices() == 0 && mesh.components().empty()));
   CHECK(same_rules(mesh.rules(), CollisionRules()));
   CHECK(mesh.filter_counts().vertex_face.pairs + mesh.filter_counts().edge_edge.pairs == 0);

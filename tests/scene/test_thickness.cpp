@@ -68,7 +68,8 @@ TEST_CASE("uniform thickness is a separation of twice as much", "[property]") {
   for (const NamedScene& named : some_scenes()) {
     Mesh thick = named.mesh();
     const Mesh thin = named.mesh();
-    set_rule(thick, &CollisionRules::thickness, std::vector<double>(std::size_t(thick.num_vertices()), 0x1p-6));
+    set_rule(thick, &CollisionRules::thickness,
+             std::vector<double>(std::size_t(thick.num_vertices()), 0x1p-6));
     Options o, twice;
     o.tolerance = twice.tolerance = 1e-6;
     twice.min_separation = 0x1p-5 * (1 + 0x1p-51);  // as the sum is rounded up

@@ -1,4 +1,5 @@
-// A query alone and a scene of that one pair have the same contact, bit for bit: when, where, with which normal.
+// A query alone and a scene of that one pair have the same contact, bit for bit: when, where, with which
+// normal.
 #include <cmath>
 
 #include "tests/catch.hpp"
@@ -43,7 +44,7 @@ std::vector<Options> ways_to_ask() {
   std::vector<Options> all(6);
   for (Options& o : all) o.tolerance = 1e-6;
   all[1].exactness = Exactness::exact, all[2].exactness = Exactness::conservative;
-  all[3].min_separation = 0.3, all[4].min_separation = 0.01, all[4].norm = Norm::maximum;
+  all[3].min_separation = 1, all[4].min_separation = 0.01, all[4].norm = Norm::maximum;
   all[5].touching_may_pass_through = true, all[5].max_checks = 20;
   return all;
 }
@@ -65,7 +66,7 @@ TEST_CASE("a query has the contact of the active set of that pair, bit for bit",
         }
     }
   CHECK((counts.contacts > fuzz(200) && counts.free > fuzz(200) && counts.certain > fuzz(200)));
-  CHECK(counts.parting > fuzz(200) / 10);
+  CHECK(counts.parting > fuzz(200) / 20);
 }
 
 TEST_CASE("degenerate queries, too, have the contact of the active set", "[property]") {
@@ -90,7 +91,8 @@ TEST_CASE("a query tells where it touches, and names its points in its own order
   const QueryResult face = vertex_face_ccd(falls, o);
   CHECK((face.kind == PairKind::vertex_face && face.a == 0 && face.b == 0));
   CHECK(face.vertices == std::array<int, 4>{0, 1, 2, 3});
-  CHECK((face.toi == 0.5 && face.step_limit == 0.5 && face.certainty == Certainty::certain && face.checks > 0));
+  CHECK((face.toi == 0.5 && face.step_limit == 0.5 && face.checks > 0));
+  CHECK(face.certainty == Certainty::certain);
   CHECK(face.weights == std::array<double, 4>{1, -0.5, -0.25, -0.25});
   CHECK(face.normal == Point{0, 0, 1});
   CHECK((face.gap == 0 && face.speed == -2 && !face.degenerate));

@@ -41,7 +41,8 @@ struct Shared {
   std::string ask(const Options& o) const {
     std::string bytes;
     const StepResult step = compute_collision_free_stepsize(mesh, scene.x_t0, scene.x_t1, o);
-    append(bytes, step.step), append(bytes, step.outcome), append(bytes, step.limiting.value_or(Pair{}).vertices);
+    append(bytes, step.step), append(bytes, step.outcome);
+    append(bytes, step.limiting.value_or(Pair{}).vertices);
     const ActiveSet set = construct_active_set(mesh, scene.x_t0, scene.x_t1, o);
     for (const Contact& c : set) {
       append(bytes, c.kind), append(bytes, c.a), append(bytes, c.b), append(bytes, c.toi);

@@ -160,7 +160,7 @@ TEST_CASE("the copies of a seam are named, and either call that joins them makes
   set_rule(mesh, &CollisionRules::rigid_bodies, {});
   set_rule(mesh, &CollisionRules::static_vertices, std::vector<bool>(6, true));
   CHECK(check(mesh, seam.x).clean());
-  set_rule(mesh, &CollisionRules::static_vertices, {false, true, true, true, false, true});  // the copies alone
+  set_rule(mesh, &CollisionRules::static_vertices, {false, true, true, true, false, true});  // the copies
   CHECK(check(mesh, seam.x).copied_vertices.size() == 2);
   set_rule(mesh, &CollisionRules::static_vertices, std::vector<bool>(6));
   set_rule(mesh, &CollisionRules::bodies, mesh.components());

@@ -45,7 +45,8 @@ Scene on_grid(Scene scene) {
 
 template <class Doubles>
 static bool same_array(const Doubles& a, const Doubles& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+  return a.size() == b.size() &&
+         (a.size() == 0 || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 static bool same_pair(const Pair& a, const Pair& b) {
   return a.kind == b.kind && a.a == b.a && a.b == b.b && a.vertices == b.vertices;
