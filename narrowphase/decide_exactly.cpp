@@ -54,8 +54,15 @@ void PairDecision::sharpen(PairResult& result) const {
   if (!decides_completely()) return;
   const auto time = exact_first_contact(exact_pair_of_this());
   if (!time) return;
-  if (result.outcome == PairOutcome::contact) result.toi = result.step_limit = time->lo;
   result.toi_hi = time->hi;
+  if (result.outcome != PairOutcome::contact) return;
+  if (time->lo > result.toi) result.tolerance = distance_before_touching(*time) * corners().unit;
+  result.toi = result.step_limit = time->lo;
+}
+
+// Corners move by at most 2 rho in the whole step, so far apart is a pair that has touched by time.hi.
+double PairDecision::distance_before_touching(const DoubleBracket& time) const {
+  return std::min(distance_at(time.lo), 2 * corners().rho * (time.hi - time.lo) * (1 + 0x1p-40) + 0x1p-1074);
 }
 
 // Whether a point of each primitive is known, at a time from found.t on, that are no farther apart than the

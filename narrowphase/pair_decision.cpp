@@ -109,14 +109,10 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
   if (later) found.t = exact.time.lo;
   // These moved on after their last look; where the inclusion root finder did, it has a bound of its own,
   // which is the sharper one for slivers.
-  if (found.verdict != Verdict::contact || found.checks <= 1 || later) {
-    const double known = searched && !later ? found.distance : INFINITY;
-    found.distance = std::min(known, distance_at(found.t));
-  }
-  // Corners move by at most 2 rho in the whole step, so far apart is a pair that has touched by time.hi.
   if (later)
-    found.distance = std::min(
-        found.distance, 2 * corners().rho * (exact.time.hi - exact.time.lo) * (1 + 0x1p-40) + 0x1p-1074);
+    found.distance = distance_before_touching(exact.time);
+  else if (found.verdict != Verdict::contact || found.checks <= 1)
+    found.distance = std::min(searched ? found.distance : INFINITY, distance_at(found.t));
   PairResult r{asked_.pair, found.t, found.t, std::max(0.0, (found.distance - found.separation) * found.unit),
                PairOutcome::contact};
   if (found.verdict == Verdict::max_checks && !real) r.outcome = PairOutcome::max_checks;

@@ -85,6 +85,7 @@ class PairDecision {
   ExactAnswer decide_exactly(const KernelResult& found, double from) const;
   bool touches_at_start() const;
   bool seen_within_separation(const KernelResult& found) const;
+  double distance_before_touching(const DoubleBracket& time) const;  // scaled, at time.lo
 
   // The start (pair_start.cpp).
   bool is_welded() const;

@@ -1,5 +1,5 @@
 // Bodies, static vertices, groups, exclusions: every broad phase gives what a filter written from the
-// documentation of Mesh leaves of all pairs, and the plan counts them.
+// documentation of CollisionRules leaves of all pairs, and FilterCounts counts them.
 #include <onset/intersections.hpp>
 #include <onset/mesh.hpp>
 #include <stdexcept>
@@ -7,24 +7,17 @@
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/rules.hpp"
 
 using namespace onset;
 using namespace onset::tests;
 using scenes::Random;
+using scenes::set_rule;
+using Rules = CollisionRules;
 
 namespace {
 
 constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge, kEdgeFace};
-
-// What was asked of a mesh, as it was asked.
-struct Rules {
-  std::vector<int> body;
-  std::vector<bool> fixed, rigid, self;
-  std::vector<std::uint32_t> group, mask;
-  std::vector<std::array<int, 2>> bodies_apart, vertices_apart;
-  std::vector<Pair> pairs;
-  std::vector<Intersection> intersections;
-};
 
 bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
   for (const auto& p : pairs)
@@ -40,24 +33,25 @@ Reason left_out(const Rules& r, const std::vector<int>& A, const std::vector<int
   const std::vector<int>* sides[2] = {&A, &B};
   for (int side = 0; side < 2; ++side)
     for (int v : *sides[side]) {
-      groups[side] |= r.group.empty() ? 1 : r.group[std::size_t(v)];
-      masks[side] |= r.mask.empty() ? 1 : r.mask[std::size_t(v)];
-      all_fixed = all_fixed && !r.fixed.empty() && r.fixed[std::size_t(v)];
+      groups[side] |= r.groups.empty() ? 1 : r.groups[std::size_t(v)];
+      masks[side] |= r.masks.empty() ? 1 : r.masks[std::size_t(v)];
+      all_fixed = all_fixed && !r.static_vertices.empty() && r.static_vertices[std::size_t(v)];
     }
   for (int v : A)
     for (int w : B) {
       shared = shared || v == w;
-      apart = apart || named(r.vertices_apart, v, w);
+      apart = apart || named(r.excluded_vertices, v, w);
     }
-  const int a = r.body.empty() ? 0 : r.body[std::size_t(A[0])],
-            b = r.body.empty() ? 0 : r.body[std::size_t(B[0])];
+  const int a = r.bodies.empty() ? 0 : r.bodies[std::size_t(A[0])],
+            b = r.bodies.empty() ? 0 : r.bodies[std::size_t(B[0])];
   if ((groups[0] & masks[1]) == 0 || (groups[1] & masks[0]) == 0) return masked;
   if (all_fixed) return fixed;
   if (a == b &&
-      ((!r.rigid.empty() && r.rigid[std::size_t(a)]) || (!r.self.empty() && !r.self[std::size_t(a)])))
+      ((!r.rigid_bodies.empty() && r.rigid_bodies[std::size_t(a)]) ||
+       (!r.bodies_without_self_collision.empty() && r.bodies_without_self_collision[std::size_t(a)])))
     return same_body;
   if (shared) return adjacent;
-  return apart || named(r.bodies_apart, a, b) ? by_name : none;
+  return apart || named(r.excluded_bodies, a, b) ? by_name : none;
 }
 
 std::vector<int> vertices_of(const MeshData& mesh, Primitive kind, int id) {
@@ -68,9 +62,9 @@ std::vector<int> vertices_of(const MeshData& mesh, Primitive kind, int id) {
 }
 
 bool named(const Rules& r, PairKind kind, int a, int b) {
-  for (const Intersection& p : r.intersections)
+  for (const Intersection& p : r.excluded_intersections)
     if (kind == kEdgeFace && p.edge == a && p.face == b) return true;
-  for (const Pair& p : r.pairs)
+  for (const Pair& p : r.excluded_pairs)
     if (p.kind == kind && ((p.a == a && p.b == b) || (kind == PairKind::edge_edge && p.a == b && p.b == a)))
       return true;
   return false;
@@ -114,29 +108,29 @@ Soup clusters(int count, Random& random) {
 }
 
 // Up to a hundred of each kind; few of them are candidates in a large mesh.
-void name_pairs(Mesh& mesh, Rules& rules, Random& random) {
+void name_pairs(const Mesh& mesh, Rules& rules, Random& random) {
   const int V = int(mesh.num_vertices()), E = int(mesh.num_edges()), F = int(mesh.num_faces());
   const auto id = [&](int count) { return scenes::integer(random, 0, count - 1); };
   if (E < 2 || F == 0 || scenes::integer(random, 0, 2) == 0) return;
   for (int i = scenes::integer(random, 0, 100); i > 0; --i) {
-    rules.pairs.push_back({PairKind::vertex_face, id(V), id(F), {}});
-    rules.intersections.push_back({id(E), id(F), IntersectionKind::touching, {}});
-    if (const int e = id(E), g = id(E); e != g) rules.pairs.push_back({PairKind::edge_edge, e, g, {}});
+    rules.excluded_pairs.push_back({PairKind::vertex_face, id(V), id(F), {}});
+    rules.excluded_intersections.push_back({id(E), id(F), IntersectionKind::touching, {}});
+    if (const int e = id(E), g = id(E); e != g)
+      rules.excluded_pairs.push_back({PairKind::edge_edge, e, g, {}});
   }
-  mesh.set_excluded_pairs(rules.pairs);
-  mesh.set_excluded_intersections(rules.intersections);
 }
 
 // Each rule with probability one half. Static vertices of `soup` stop moving.
-Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
+Mesh random_rules(Soup& soup, Random& random) {
   Mesh mesh(soup.mesh.num_vertices, matrix(soup.mesh.edges), matrix(soup.mesh.faces));
+  Rules rules;
   const auto some = [&](double part) { return scenes::uniform(random, 0, 1) < part; };
   const std::size_t V = std::size_t(soup.mesh.num_vertices);
   if (some(0.7)) {
-    rules.body = mesh.components();
+    rules.bodies = mesh.components();
     const int merged = scenes::integer(random, 1, 20);
-    for (int& b : rules.body) b %= merged;
-    mesh.set_bodies(rules.body);
+    for (int& b : rules.bodies) b %= merged;
+    mesh.set_rules(rules);
   }
   const std::size_t bodies = std::size_t(mesh.num_bodies());
   const auto flags = [&](std::size_t size) {
@@ -145,22 +139,19 @@ Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
     for (std::size_t i = 0; i < size; ++i) all[i] = some(part);
     return all;
   };
-  if (some(0.5)) mesh.set_rigid(rules.rigid = flags(bodies));
-  if (some(0.5)) mesh.set_self_collision(rules.self = flags(bodies));
+  if (some(0.5)) rules.rigid_bodies = flags(bodies);
+  if (some(0.5)) rules.bodies_without_self_collision = flags(bodies);
   if (some(0.6)) {
-    rules.fixed = some(0.5) ? flags(V) : mesh.of_bodies(flags(bodies));
-    mesh.set_static(rules.fixed);
+    rules.static_vertices = some(0.5) ? flags(V) : mesh.of_bodies(flags(bodies));
     for (std::size_t v = 0; v < V; ++v)
       for (std::size_t a = 0; a < 3; ++a)
-        if (rules.fixed[v]) soup.x_t1[3 * v + a] = soup.x_t0[3 * v + a];
+        if (rules.static_vertices[v]) soup.x_t1[3 * v + a] = soup.x_t0[3 * v + a];
   }
-  if (some(0.5)) {
+  if (some(0.5))
     for (std::size_t v = 0; v < V; ++v) {
-      rules.group.push_back(std::uint32_t(scenes::integer(random, 0, 3)) << 30);
-      rules.mask.push_back(std::uint32_t(scenes::integer(random, 0, 3)) << 30);
+      rules.groups.push_back(std::uint32_t(scenes::integer(random, 0, 3)) << 30);
+      rules.masks.push_back(std::uint32_t(scenes::integer(random, 0, 3)) << 30);
     }
-    mesh.set_groups(rules.group, rules.mask);
-  }
   const auto pairs = [&](int count, int size) {
     std::vector<std::array<int, 2>> all;
     for (int i = 0; i < count && size > 1; ++i) {
@@ -169,9 +160,10 @@ Mesh random_rules(Soup& soup, Rules& rules, Random& random) {
     }
     return all;
   };
-  if (some(0.5)) mesh.set_excluded_bodies(rules.bodies_apart = pairs(4, int(bodies)));
-  if (some(0.5)) mesh.set_excluded_vertices(rules.vertices_apart = pairs(30, int(V)));
+  if (some(0.5)) rules.excluded_bodies = pairs(4, int(bodies));
+  if (some(0.5)) rules.excluded_vertices = pairs(30, int(V));
   name_pairs(mesh, rules, random);
+  mesh.set_rules(rules);
   return mesh;
 }
 
@@ -182,8 +174,8 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
   std::int64_t found = 0, reasons[6] = {};
   for (int round = 0; round < 150; ++round) {
     Soup soup = clusters(scenes::integer(random, 1, 40), random);
-    Rules rules;
-    const Mesh mesh = random_rules(soup, rules, random);
+    const Mesh mesh = random_rules(soup, random);
+    const Rules& rules = mesh.rules();
     const Motion motion = make_motion(mesh.data(), {soup.x_t0.data(), soup.mesh.num_vertices},
                                       {soup.x_t1.data(), soup.mesh.num_vertices});
     REQUIRE(motion.status == Outcome::free);
@@ -221,12 +213,12 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
   for (const Reason reason : {masked, fixed, same_body, by_name}) CHECK(reasons[reason] > 1000);
 }
 
-TEST_CASE("the plan counts every pair under the first reason that leaves it out", "[property]") {
+TEST_CASE("filter counts hold every pair under the first reason that leaves it out", "[property]") {
   Random random(21);
   for (int round = 0; round < 150; ++round) {
     Soup soup = clusters(scenes::integer(random, 1, 25), random);
-    Rules rules;
-    const Mesh mesh = random_rules(soup, rules, random);
+    const Mesh mesh = random_rules(soup, random);
+    const Rules& rules = mesh.rules();
     std::array<std::vector<bool>, 3> busy;
     for (const Primitive p : kPrimitives) busy[std::size_t(p)].resize(primitive_count(soup.mesh, p));
     for (const PairKind kind : kKinds) {
@@ -239,8 +231,9 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
           if (reason == none)
             busy[std::size_t(first)][std::size_t(a)] = busy[std::size_t(second)][std::size_t(b)] = true;
         }
-      if (kind == kEdgeFace) continue;  // in no plan, but what may meet that way has a box
-      const PairFilterCounts& plan = kind == PairKind::vertex_face ? mesh.filter_counts().vertex_face : mesh.filter_counts().edge_edge;
+      if (kind == kEdgeFace) continue;  // in no count, but what may meet that way has a box
+      const FilterCounts& all = mesh.filter_counts();
+      const PairFilterCounts& plan = kind == PairKind::vertex_face ? all.vertex_face : all.edge_edge;
       CAPTURE(round, int(kind));
       CHECK(plan.pairs == pairs);
       CHECK(plan.masked == counts[masked]);
@@ -251,7 +244,8 @@ TEST_CASE("the plan counts every pair under the first reason that leaves it out"
       CHECK(plan.may_meet() == counts[none]);
     }
     // What may meet something is never dropped; adjacency and exclusions are not looked at for that.
-    const PrimitiveFilterCounts* plans[] = {&mesh.filter_counts().vertices, &mesh.filter_counts().edges, &mesh.filter_counts().faces};
+    const FilterCounts& all = mesh.filter_counts();
+    const PrimitiveFilterCounts* plans[] = {&all.vertices, &all.edges, &all.faces};
     for (const Primitive p : kPrimitives) {
       const auto& marks = busy[std::size_t(p)];
       const std::int64_t needed = std::count(marks.begin(), marks.end(), true);
@@ -275,18 +269,19 @@ TEST_CASE("what can meet nothing gets no box", "[unit]") {
   CHECK(all.vertices.moving == 120);
   CHECK(all.faces.moving == 40);
   Mesh rigid = mesh(true);
-  rigid.set_rigid({true});
+  set_rule(rigid, &CollisionRules::rigid_bodies, {true});
   CHECK(rigid.filter_counts().vertices.dropped == 120);
   CHECK(rigid.filter_counts().edges.dropped == 120);
   CHECK(rigid.filter_counts().faces.dropped == 40);
   CHECK(rigid.filter_counts().edge_edge.may_meet() == 0);
   Mesh still = mesh(true);
-  still.set_static(std::vector<bool>(120, true));
+  set_rule(still, &CollisionRules::static_vertices, std::vector<bool>(120, true));
   CHECK(still.filter_counts().faces.dropped == 40);
   Mesh ghost = mesh(true);  // the first triangle is in no group
-  std::vector<std::uint32_t> groups(120, 1), masks(120, 1);
-  groups[0] = groups[1] = groups[2] = 0;
-  ghost.set_groups(groups, masks);
+  Rules rules;
+  rules.groups.assign(120, 1), rules.masks.assign(120, 1);
+  rules.groups[0] = rules.groups[1] = rules.groups[2] = 0;
+  ghost.set_rules(rules);
   CHECK(ghost.filter_counts().vertices.dropped == 3);
   CHECK(ghost.filter_counts().edges.dropped == 3);
   CHECK(ghost.filter_counts().faces.dropped == 1);

@@ -110,24 +110,24 @@ TEST_CASE("an oblique face is kept at its distance", "[unit]") {
 
     const Query grazing = above_oblique_triangle(0.011 * unit, 0.009 * unit);
     const QueryResult a = ccd(grazing, o);
-    CHECK(a.outcome == Outcome::contact);
+    CHECK(a.outcome == PairOutcome::contact);
     CHECK(a.toi <= 0.5);
     CHECK(a.toi > 0.4999);
     CHECK(broken_promise(grazing, o, a) == "");
 
     const Query falling = above_oblique_triangle(0.012 * unit, 0);
     const QueryResult b = ccd(falling, o);
-    CHECK(b.outcome == Outcome::contact);
+    CHECK(b.outcome == PairOutcome::contact);
     CHECK(b.toi <= 1 / 6.0);
     CHECK(b.toi > 0.1666);
     CHECK(broken_promise(falling, o, b) == "");
 
     const Query parting = above_oblique_triangle(0.009 * unit, 0.02 * unit);
-    CHECK(ccd(parting, o).outcome == Outcome::initial_separating);
+    CHECK(ccd(parting, o).outcome == PairOutcome::initial_separating);
 
     const Query pressing = above_oblique_triangle(0.009 * unit, 0.001 * unit);
     const QueryResult c = ccd(pressing, o);
-    CHECK(c.outcome == Outcome::initial_contact);
+    CHECK(c.outcome == PairOutcome::initial_contact);
     CHECK(c.toi == 0);
   }
 }
@@ -137,10 +137,10 @@ TEST_CASE("the two norms differ by what they should", "[unit]") {
   const Query query = above_oblique_triangle(0.03, 0.011);
   Options o;
   o.min_separation = 0.01;
-  CHECK(ccd(query, o).outcome == Outcome::free);
+  CHECK(ccd(query, o).outcome == PairOutcome::free);
   o.norm = Norm::maximum;
   const QueryResult r = ccd(query, o);
-  CHECK(r.outcome == Outcome::contact);
+  CHECK(r.outcome == PairOutcome::contact);
   const double exact = (0.03 - 0.01 * std::sqrt(3.0)) / (0.03 - 0.011);
   CHECK(r.toi <= exact);
   CHECK(r.toi > exact - 1e-3);

@@ -31,7 +31,8 @@ void check(const std::string& source, const Query& query, double d, Norm norm, N
       o.norm = norm;
       o.narrow_phase = method;
       const QueryResult r = ccd(query, o);
-      if (!(r.toi > 0) || r.outcome == Outcome::initial_contact || r.outcome == Outcome::initial_separating)
+      if (!(r.toi > 0) || r.outcome == PairOutcome::initial_contact ||
+          r.outcome == PairOutcome::initial_separating)
         FAIL_CHECK(source << "\n  " << to_text(query) << "\n  " << oracle::to_text(o, r));
     }
 }

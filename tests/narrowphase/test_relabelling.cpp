@@ -14,17 +14,17 @@ using scenes::Random;
 namespace {
 
 bool initial(const QueryResult& r) {
-  return r.outcome == Outcome::initial_contact || r.outcome == Outcome::initial_separating;
+  return r.outcome == PairOutcome::initial_contact || r.outcome == PairOutcome::initial_separating;
 }
 
 // What the two answers say about the same motion cannot both hold. Both are conservative and say how far
 // beyond the separation they reported; the promises bound that by the tolerance.
 std::string contradiction(const Query& query, const Options& o, const QueryResult& a, const QueryResult& b) {
-  if (a.outcome == Outcome::max_checks || b.outcome == Outcome::max_checks) return {};
+  if (a.outcome == PairOutcome::max_checks || b.outcome == PairOutcome::max_checks) return {};
   const double floor = 2e-14 * extent(query);
   if (initial(a) != initial(b) && oracle::compare_distance(query, 0, o.min_separation + floor, o.norm) > 0)
     return "only one starts in contact";
-  if (a.outcome != Outcome::contact || b.outcome != Outcome::contact) return {};
+  if (a.outcome != PairOutcome::contact || b.outcome != PairOutcome::contact) return {};
   const double early = std::min(a.toi, b.toi), late = std::max(a.toi, b.toi);
   if (early == late) return {};
   const double tolerance = std::max(a.tolerance, b.tolerance) * (1 + 0x1p-40) + floor + 0x1p-1070;

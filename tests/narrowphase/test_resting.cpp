@@ -52,7 +52,7 @@ void expect_free(const char* what, const Query& query, double d = 0, Norm norm =
     o.min_separation = d;
     o.norm = norm;
     const QueryResult r = ccd(query, o);
-    if (r.outcome != Outcome::free || r.toi != INFINITY)
+    if (r.outcome != PairOutcome::free || r.toi != INFINITY)
       FAIL_CHECK(what << "\n  " << to_text(query) << "\n  " << oracle::to_text(o, r));
   }
 }
@@ -130,7 +130,7 @@ TEST_CASE("an approach that closes the gap is reported", "[property]") {
       o.relative_tolerance = tolerance;
       const QueryResult r = ccd(query, o);
       const std::string broken = broken_promise(query, o, r);
-      if (r.outcome != Outcome::contact || r.toi < 0.3749 || !broken.empty())
+      if (r.outcome != PairOutcome::contact || r.toi < 0.3749 || !broken.empty())
         FAIL_CHECK(broken << "\n  " << to_text(query) << "\n  " << oracle::to_text(o, r));
     }
   });

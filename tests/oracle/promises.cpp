@@ -8,7 +8,7 @@ namespace onset::oracle {
 
 std::string broken_promise(const scenes::Query&, const Options&, const QueryResult& result,
                            const Known& truth) {
-  if (result.outcome == Outcome::free) {
+  if (result.outcome == PairOutcome::free) {
     if (result.toi != INFINITY || result.step_limit != INFINITY) return "free, but not for ever";
   } else if (!(result.toi >= 0 && result.toi <= 1)) {
     return "toi outside [0, 1]";
@@ -26,15 +26,16 @@ bool silent_zero(const scenes::Query& query, const Options& options, const Query
 
 static std::string wrong_outcome(const scenes::Query& query, const Options& options,
                                  const QueryResult& result) {
-  const Outcome outcome = result.outcome;
-  const bool initial = outcome == Outcome::initial_contact || outcome == Outcome::initial_separating;
-  if (outcome == Outcome::non_finite || outcome == Outcome::out_of_range)
+  const PairOutcome outcome = result.outcome;
+  const bool initial = outcome == PairOutcome::initial_contact || outcome == PairOutcome::initial_separating;
+  if (outcome == PairOutcome::non_finite || outcome == PairOutcome::out_of_range)
     return "an outcome for bad positions";
   if (initial && result.toi != 0) return "starts in contact, but toi is not 0";
-  if (outcome == Outcome::contact && result.toi == 0) return "a contact at toi 0 that is not called initial";
+  if (outcome == PairOutcome::contact && result.toi == 0)
+    return "a contact at toi 0 that is not called initial";
   const bool within = compare_distance(query, 0, options.min_separation, options.norm) <= 0;
   if (within && !initial) return "starts within the separation, not said";
-  if (outcome == Outcome::initial_separating) {
+  if (outcome == PairOutcome::initial_separating) {
     const double rounding = 0x1p-45 * extent(query), start = distance(query, 0, options.norm).lo - rounding;
     for (double part : {0x1p-20, 0.125, 0.25, 0.5, 0.75, 1.0})
       if (start > 0 && compare_distance(query, part * std::min(1.0, result.step_limit), start, options.norm) < 0)
@@ -55,7 +56,7 @@ std::string wrong_report(const scenes::Query& query, const Options& options, con
 
   if (!result.collides()) return {};
 
-  if (result.outcome == Outcome::max_checks) return {};
+  if (result.outcome == PairOutcome::max_checks) return {};
   if (tolerance_understated(query, options, result))
     return "farther apart at toi than the reported tolerance";
   const double size = extent(query), rounding = 0x1p-42 * (size + options.min_separation) + 0x1p-1070;

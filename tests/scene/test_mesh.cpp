@@ -1,4 +1,6 @@
-// What a mesh is told about its bodies: checked, mapped, and the same answers with less work.
+// What a mesh is made of, its map to the full one, and the same answers with less work.
+#include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <onset/onset.hpp>
 #include <stdexcept>
@@ -6,16 +8,20 @@
 
 #include "tests/catch.hpp"
 #include "tests/scenes/meshes.hpp"
+#include "tests/scenes/rules.hpp"
 
 using namespace onset;
 using scenes::Scene;
+using scenes::set_rule;
 
 namespace {
 
 bool same_answer(const ActiveSet& a, const ActiveSet& b) {
-  return a.kind == b.kind && a.a == b.a && a.b == b.b && a.status == b.status && a.outcome == b.outcome &&
-         a.toi.size() == b.toi.size() &&
-         (a.toi.empty() || std::memcmp(a.toi.data(), b.toi.data(), a.toi.size() * sizeof(double)) == 0);
+  const auto same = [](const Contact& c, const Contact& d) {
+    return c.kind == d.kind && c.a == d.a && c.b == d.b && c.outcome == d.outcome &&
+           std::memcmp(&c.toi, &d.toi, sizeof(double)) == 0;
+  };
+  return a.outcome == b.outcome && std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
 }
 
 // A cube at rest after a shaken sphere that falls onto it: static from its first vertex on.
@@ -35,35 +41,6 @@ std::vector<bool> last_eight(const Scene& scene) {
 }
 
 }  // namespace
-
-TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]") {
-  const Scene scene = scenes::joined(scenes::cube(), scenes::translated(scenes::cube(), {3, 0, 0}));
-  Mesh mesh(scene.x_t0, scene.faces);
-  std::vector<int> body(16, 0);
-  body[15] = 1;
-  CHECK_THROWS_WITH(mesh.set_bodies(body),
-                    Catch::Contains("edge row") && Catch::Contains("vertex 15 in body 1"));
-  body[15] = -1;
-  CHECK_THROWS_WITH(mesh.set_bodies(body), Catch::Contains("body row 15"));
-  CHECK_THROWS_WITH(mesh.set_bodies({0, 1}), Catch::Contains("2 values for 16 vertices"));
-  CHECK(mesh.num_bodies() == 1);
-  mesh.set_bodies(mesh.components());
-  REQUIRE(mesh.num_bodies() == 2);
-  CHECK(mesh.body(7) == 0);
-  CHECK(mesh.body(8) == 1);
-  CHECK_THROWS_WITH(mesh.set_static({true}), Catch::Contains("1 values for 16 vertices"));
-  CHECK_THROWS_WITH(mesh.set_rigid({true}), Catch::Contains("1 values for 2 bodies"));
-  CHECK_THROWS_WITH(mesh.set_self_collision({true}), Catch::Contains("1 values for 2 bodies"));
-  CHECK_THROWS_AS(mesh.set_groups({1}, std::vector<std::uint32_t>(16)), std::invalid_argument);
-  CHECK_THROWS_AS(mesh.set_groups(std::vector<std::uint32_t>(16), {1}), std::invalid_argument);
-  CHECK_THROWS_WITH(mesh.set_excluded_bodies({{0, 1}, {1, 2}}),
-                    Catch::Contains("excluded bodies row 1") && Catch::Contains("id 2"));
-  CHECK_THROWS_WITH(mesh.set_excluded_vertices({{3, 3}}), Catch::Contains("excluded vertices row 0"));
-  CHECK_THROWS_WITH(mesh.set_full_vertices(std::vector<int>(16, 2), 30),
-                    Catch::Contains("row 1") && Catch::Contains("repeated"));
-  CHECK(mesh.filter_counts().vertex_face.same_body == 0);
-  CHECK(mesh.filter_counts().vertex_face.excluded == 0);
-}
 
 TEST_CASE("faces need their edges: what is missing is named, and complete_edges adds it", "[unit]") {
   Eigen::MatrixXi F(3, 3), E(3, 2);
@@ -113,66 +90,13 @@ TEST_CASE("complete edges of random faces are those given, then the others in th
   CHECK_THROWS_AS(complete_edges(Eigen::RowVector3i(0, 1, 2), Eigen::MatrixXi(0, 3)), std::invalid_argument);
 }
 
-TEST_CASE("pairs to leave out are named by row where they are none", "[unit]") {
-  const Scene scene = scenes::joined(scenes::cube(), scenes::translated(scenes::cube(), {3, 0, 0}));
-  Mesh mesh(scene.x_t0, scene.faces);
-  const Pair good{PairKind::vertex_face, 15, 0, {}};
-  const auto with = [&](const Pair& bad) { mesh.set_excluded_pairs({good, bad}); };
-  CHECK_THROWS_WITH(
-      with({PairKind::vertex_face, 16, 0, {}}),
-      Catch::Contains("excluded pairs row 1: vertex 16 is out of range, there are 16 vertices"));
-  CHECK_THROWS_WITH(with({PairKind::vertex_face, 0, 24, {}}), Catch::Contains("row 1: face 24"));
-  CHECK_THROWS_WITH(with({PairKind::edge_edge, -1, 3, {}}), Catch::Contains("row 1: edge -1"));
-  CHECK_THROWS_WITH(with({PairKind::edge_edge, 3, 3, {}}), Catch::Contains("row 1: edge 3 is repeated"));
-  for (const int kind : {2, 9})
-    CHECK_THROWS_WITH(with({PairKind(kind), 3, 4, {}}),
-                      Catch::Contains("row 1") && Catch::Contains("kind " + std::to_string(kind)));
-  CHECK_THROWS_WITH(mesh.set_excluded_intersections({{0, 24, IntersectionKind::crossing, {}}}),
-                    Catch::Contains("excluded intersections row 0: face 24"));
-  CHECK(mesh.filter_counts().vertex_face.excluded == 0);
-  mesh.set_excluded_pairs({good, {PairKind::edge_edge, 30, 2, {}}, good});
-  CHECK((mesh.filter_counts().vertex_face.excluded == 1 && mesh.filter_counts().edge_edge.excluded == 1));
-  mesh.set_excluded_vertices({{15, mesh.face(0)[0]}});  // the same pair, counted once
-  CHECK(mesh.filter_counts().vertex_face.excluded > 1);
-  const std::int64_t both = mesh.filter_counts().vertex_face.excluded;
-  mesh.set_excluded_pairs({});
-  CHECK(mesh.filter_counts().vertex_face.excluded == both);
-}
-
-TEST_CASE("new points forget the pairs of old ones", "[unit]") {
-  Mesh mesh(9, Eigen::MatrixXi((Eigen::MatrixXi(1, 3) << 0, 1, 2).finished()));
-  mesh.set_points({3, 4, 5});
-  mesh.set_excluded_pairs(
-      {{PairKind::edge_edge, 3, 4, {}}, {PairKind::vertex_face, 7, 0, {}}, {PairKind::edge_edge, 0, 3, {}}});
-  mesh.set_excluded_intersections({{4, 0, IntersectionKind::touching, {}}});
-  CHECK((mesh.filter_counts().edge_edge.excluded == 2 && mesh.filter_counts().vertex_face.excluded == 1));
-  mesh.set_points({6, 7, 8});
-  CHECK((mesh.filter_counts().edge_edge.excluded == 0 && mesh.filter_counts().vertex_face.excluded == 1));
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(9, 3);
-  x.row(1) << 1, 0, 0, x.row(2) << 0, 1, 0;
-  CHECK(intersections(mesh, x).size() == 3);
-}
-
-TEST_CASE("points are vertices of no edge or face, each once, after the edges", "[unit]") {
-  Eigen::MatrixXi edges(1, 2), faces(1, 3);
-  edges << 3, 4;
-  faces << 0, 1, 2;
-  Mesh mesh(8, complete_edges(edges, faces), faces);
-  mesh.set_points({7, 5});
-  CHECK((mesh.num_edges() == 6 && mesh.num_points() == 2));
-  CHECK((mesh.edge(4) == std::array<int, 2>{7, 7} && mesh.edge(5) == std::array<int, 2>{5, 5}));
-  CHECK_THROWS_WITH(mesh.set_points({5, 8}), Catch::Contains("point row 1: vertex 8 is out of range"));
-  CHECK_THROWS_WITH(mesh.set_points({-1}), Catch::Contains("point row 0: vertex -1"));
-  CHECK_THROWS_WITH(mesh.set_points({5, 6, 5}), Catch::Contains("point row 2: vertex 5 is repeated"));
-  CHECK_THROWS_WITH(mesh.set_points({4}), Catch::Contains("row 0: vertex 4 belongs to an edge"));
-  CHECK_THROWS_WITH(mesh.set_points({5, 2}), Catch::Contains("row 1: vertex 2 belongs to an edge or a face"));
-  CHECK((mesh.num_edges() == 6 && mesh.edge(4)[0] == 7));
-  mesh.set_points({6});
-  CHECK((mesh.num_edges() == 5 && mesh.edge(4)[0] == 6 && mesh.filter_counts().edge_edge.pairs == 10));
-  mesh.set_points({});
-  CHECK((mesh.num_edges() == 4 && mesh.num_points() == 0));
-  edges << 3, 3;
-  CHECK_THROWS_WITH(Mesh(8, edges, faces), Catch::Contains("edge row 0: vertex 3 is repeated"));
+TEST_CASE("full vertices out of range or repeated are named by row", "[unit]") {
+  Mesh mesh(4, Eigen::MatrixXi((Eigen::MatrixXi(1, 3) << 1, 2, 3).finished()));
+  CHECK_THROWS_WITH(mesh.set_full_vertices({2, 2, 2, 2}, 30),
+                    Catch::Contains("full vertices row 1") && Catch::Contains("repeated"));
+  CHECK_THROWS_WITH(mesh.set_full_vertices({0, 1, 2, 30}, 30), Catch::Contains("full vertices row 3"));
+  CHECK_THROWS_WITH(mesh.set_full_vertices({0}, 30), Catch::Contains("1 values for 4 vertices"));
+  CHECK((mesh.num_full_vertices() == 4 && mesh.full_vertex(3) == 3));
 }
 
 TEST_CASE("ids and degrees of freedom map to the full mesh", "[unit]") {
@@ -206,9 +130,9 @@ TEST_CASE("a point against a face and wires against each other are found", "[uni
   edges << 0, 1, 1, 2, 2, 0, 4, 5, 6, 7;
   const ActiveSet set = construct_active_set(Mesh(8, edges, faces), x, end);
   REQUIRE(set.size() == 2);
-  CHECK(set.vertices[0] == std::array<int, 4>{3, 0, 1, 2});
-  CHECK(set.vertices[1] == std::array<int, 4>{4, 5, 6, 7});
-  for (double toi : set.toi) CHECK(toi == Approx(0.5).epsilon(1e-4));
+  CHECK(set[0].vertices == std::array<int, 4>{3, 0, 1, 2});
+  CHECK(set[1].vertices == std::array<int, 4>{4, 5, 6, 7});
+  for (const Contact& contact : set) CHECK(contact.toi == Approx(0.5).epsilon(1e-4));
 }
 
 TEST_CASE("static vertices give the same answers and are boxed once", "[property]") {
@@ -216,7 +140,7 @@ TEST_CASE("static vertices give the same answers and are boxed once", "[property
   for (const double separation : {0.0, 0.02}) {
     Mesh fixed(first.x_t0, first.faces);
     const Mesh plain = fixed;
-    fixed.set_static(last_eight(first));
+    set_rule(fixed, &CollisionRules::static_vertices, last_eight(first));
     int contacts = 0;
     for (unsigned seed = 1; seed <= 12; ++seed) {
       const Scene scene = onto_static(seed % 2 == 0 ? 0.75 : 0.1, seed);
@@ -237,7 +161,7 @@ TEST_CASE("static vertices give the same answers and are boxed once", "[property
       CHECK(!step.stats.made_static_boxes);
       const LineSearch search(fixed, scene.x_t0, scene.x_t1 - scene.x_t0, o);
       const LineSearch usual(plain, scene.x_t0, scene.x_t1 - scene.x_t0, o);
-      CHECK(search.largest_step().result.step == usual.largest_step().result.step);
+      CHECK(search.largest_step().step == usual.largest_step().step);
       contacts += expected.size() > 0;
     }
     CHECK(contacts == 6);
@@ -248,7 +172,7 @@ TEST_CASE("static vertices found elsewhere are boxed again, and must not move in
   const Scene scene = onto_static(0.75, 1);
   Mesh mesh(scene.x_t0, scene.faces);
   const Mesh plain = mesh;
-  mesh.set_static(last_eight(scene));
+  set_rule(mesh, &CollisionRules::static_vertices, last_eight(scene));
   const auto ask = [&](const Scene& s) {
     const ActiveSet set = construct_active_set(mesh, s.x_t0, s.x_t1);
     CHECK(same_answer(set, construct_active_set(plain, s.x_t0, s.x_t1)));
@@ -280,7 +204,7 @@ TEST_CASE("threads that share a mesh and disagree on where it stands get their o
   Scene here = onto_static(0.75, 3), there = here;
   Mesh mesh(here.x_t0, here.faces);
   const Mesh plain = mesh;
-  mesh.set_static(last_eight(here));
+  set_rule(mesh, &CollisionRules::static_vertices, last_eight(here));
   for (Eigen::MatrixXd* x : {&there.x_t0, &there.x_t1}) x->bottomRows(8).col(0).array() += 0.5;
   const ActiveSet expected[2] = {construct_active_set(plain, here.x_t0, here.x_t1),
                                  construct_active_set(plain, there.x_t0, there.x_t1)};
@@ -310,10 +234,10 @@ TEST_CASE("a thousand rigid bodies make no pair within a body", "[property]") {
   scenes::Random random(8);
   scenes::shake(all, 0.3, random);
   Mesh mesh(all.x_t0, all.faces);
-  mesh.set_bodies(mesh.components());
+  set_rule(mesh, &CollisionRules::bodies, mesh.components());
   REQUIRE(mesh.num_bodies() == 1000);
   const Candidates before = compute_candidates(mesh, all.x_t0, all.x_t1);
-  mesh.set_rigid(std::vector<bool>(1000, true));
+  set_rule(mesh, &CollisionRules::rigid_bodies, std::vector<bool>(1000, true));
   const Candidates found = compute_candidates(mesh, all.x_t0, all.x_t1);
   const auto body = [&](bool edge, int id) { return mesh.body(edge ? mesh.edge(id)[0] : id); };
   std::vector<std::array<int, 2>> vf, ee;

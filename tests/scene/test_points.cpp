@@ -4,6 +4,7 @@
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/narrowphase/separation.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/support/mesh_pairs.hpp"
 #include "tests/src/support/scene_set.hpp"
 
@@ -11,6 +12,7 @@ using namespace onset;
 using namespace onset::tests;
 using scenes::Random;
 using scenes::Scene;
+using scenes::set_rule;
 
 namespace {
 
@@ -25,15 +27,16 @@ Scene falling_beside(double y) {
   s.x_t1(2, 2) = -1;
   return s;
 }
+CollisionRules declared(const std::vector<int>& points) {
+  CollisionRules rules;
+  rules.points = points;
+  return rules;
+}
 Mesh wire_and_point() {
-  Mesh mesh(3, Eigen::RowVector2i(0, 1), kNoFaces);
-  mesh.set_points({2});
-  return mesh;
+  return Mesh(3, Eigen::RowVector2i(0, 1), kNoFaces, declared({2}));
 }
 Mesh two_points() {
-  Mesh mesh(2, kNoEdges, kNoFaces);
-  mesh.set_points({1, 0});
-  return mesh;
+  return Mesh(2, kNoEdges, kNoFaces, declared({1, 0}));
 }
 
 Eigen::MatrixXd random_points(Random& random, int count, int bits) {
@@ -56,7 +59,7 @@ struct Mixed {
     std::vector<int> ids;
     for (int v = 14; v < 14 + points; ++v) ids.push_back(v);
     std::reverse(ids.begin(), ids.end());
-    mesh.set_points(ids);
+    set_rule(mesh, &CollisionRules::points, ids);
   }
   static Eigen::MatrixXi edges() {
     Eigen::MatrixXi e(11, 2);
@@ -74,10 +77,8 @@ QueryResult row(const ActiveSet& set, const Key& pair, double tolerance) {
   const std::size_t i = row_of(set, pair);
   QueryResult r;
   if (i == set.size()) return r;
-  r.outcome = set.status[i];
-  r.toi = set.toi[i], r.step_limit = set.step_limit[i];
-  r.tolerance = tolerance;
-  r.certainty = set.certainty[i], r.toi_hi = set.toi_hi[i];
+  static_cast<Contact&>(r) = set[i];
+  CHECK(r.tolerance <= tolerance);
   return r;
 }
 
@@ -92,13 +93,13 @@ TEST_CASE("a point meets a wire exactly, and misses it by a hair", "[unit]") {
   const Scene hit = falling_beside(0);
   const ActiveSet set = construct_active_set(wire_and_point(), hit.x_t0, hit.x_t1, o);
   REQUIRE(set.size() == 1);
-  CHECK(set.vertices[0] == std::array<int, 4>{0, 1, 2, 2});
-  CHECK((set.kind[0] == PairKind::edge_edge && set.a[0] == 0 && set.b[0] == 1));
-  CHECK((set.toi[0] == 0.5 && set.certainty[0] == Certainty::certain));
-  CHECK(set.weight[0] == std::array<double, 4>{0.5, 0.5, -1, 0});
-  CHECK(set.normal[0] == std::array<double, 3>{0, 0, -1});  // the wire was below
-  CHECK(set.speed[0] == -2);
-  CHECK(set.degenerate[0] == 1);
+  CHECK(set[0].vertices == std::array<int, 4>{0, 1, 2, 2});
+  CHECK((set[0].kind == PairKind::edge_edge && set[0].a == 0 && set[0].b == 1));
+  CHECK((set[0].toi == 0.5 && set[0].certainty == Certainty::certain));
+  CHECK(set[0].weights == std::array<double, 4>{0.5, 0.5, -1, 0});
+  CHECK(set[0].normal == std::array<double, 3>{0, 0, -1});  // the wire was below
+  CHECK(set[0].speed == -2);
+  CHECK(set[0].degenerate);
   const Mesh undeclared(3, Eigen::RowVector2i(0, 1), kNoFaces);
   CHECK(is_step_collision_free(undeclared, hit.x_t0, hit.x_t1, o));
 
@@ -115,17 +116,17 @@ TEST_CASE("a thick wire meets a point where the closed form says so", "[unit]") 
     Options o;
     o.tolerance = 1e-9;
     o.min_separation = y == 0 ? 0.125 : 0.25;
-    mesh.set_thickness(y == 0 ? std::vector<double>{0, 0.25, 0.125}
-                              : std::vector<double>{0.25, 0.125, 0.125});
+    set_rule(mesh, &CollisionRules::thickness,
+             y == 0 ? std::vector<double>{0, 0.25, 0.125} : std::vector<double>{0.25, 0.125, 0.125});
     const double d = y == 0 ? 0.5 : 0.625, exact = 0.25;  // sqrt(0.625^2 - 0.375^2) = 0.5 above the wire
     const ActiveSet set = construct_active_set(mesh, s.x_t0, s.x_t1, o);
     REQUIRE(set.size() == 1);
-    CHECK((set.toi[0] <= exact && set.toi[0] > exact - 1e-8));
-    CHECK(set.gap[0] == Approx(d).epsilon(1e-7));
-    CHECK(set.weight[0] == std::array<double, 4>{0.5, 0.5, -1, 0});
-    CHECK(set.normal[0][1] == Approx(-y / d).margin(1e-7));
-    CHECK(set.normal[0][2] == Approx(-0.5 / d).margin(1e-7));
-    CHECK(compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1, o).toi == set.toi[0]);
+    CHECK((set[0].toi <= exact && set[0].toi > exact - 1e-8));
+    CHECK(set[0].gap == Approx(d).epsilon(1e-7));
+    CHECK(set[0].weights == std::array<double, 4>{0.5, 0.5, -1, 0});
+    CHECK(set[0].normal[1] == Approx(-y / d).margin(1e-7));
+    CHECK(set[0].normal[2] == Approx(-0.5 / d).margin(1e-7));
+    CHECK(compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1, o).toi == set[0].toi);
   }
   const Scene s = falling_beside(0.625 + 1e-6);
   Options o;
@@ -143,12 +144,12 @@ TEST_CASE("two points meet head-on without a separation, and pass each other oth
   o.exactness = Exactness::exact;
   ActiveSet set = construct_active_set(two_points(), s.x_t0, s.x_t1, o);
   REQUIRE(set.size() == 1);
-  CHECK(set.vertices[0] == std::array<int, 4>{1, 1, 0, 0});  // in the order of set_points
-  CHECK((set.toi[0] <= 0.4 && set.toi_hi[0] >= 0.4 && set.toi_hi[0] - set.toi[0] < 1e-16));
-  CHECK(set.weight[0] == std::array<double, 4>{1, 0, -1, 0});
-  CHECK(std::hypot(set.normal[0][0], set.normal[0][1], set.normal[0][2]) == Approx(1));
-  CHECK(set.normal[0][2] < 0);
-  CHECK(set.degenerate[0] == 1);
+  CHECK(set[0].vertices == std::array<int, 4>{1, 1, 0, 0});  // in the order of the points
+  CHECK((set[0].toi <= 0.4 && set[0].toi_hi >= 0.4 && set[0].toi_hi - set[0].toi < 1e-16));
+  CHECK(set[0].weights == std::array<double, 4>{1, 0, -1, 0});
+  CHECK(std::hypot(set[0].normal[0], set[0].normal[1], set[0].normal[2]) == Approx(1));
+  CHECK(set[0].normal[2] < 0);
+  CHECK(set[0].degenerate);
   s.x_t1(1, 1) = 0x1p-40;
   CHECK(is_step_collision_free(two_points(), s.x_t0, s.x_t1, o));
 
@@ -157,14 +158,14 @@ TEST_CASE("two points meet head-on without a separation, and pass each other oth
   s.x_t1 = s.x_t0;
   set = construct_active_set(two_points(), s.x_t0, s.x_t1, o);
   REQUIRE(set.size() == 1);
-  CHECK((set.toi[0] == 0 && set.certainty[0] == Certainty::touching_at_start));
-  CHECK(std::hypot(set.normal[0][0], set.normal[0][1], set.normal[0][2]) == Approx(1));
+  CHECK((set[0].toi == 0 && set[0].certainty == Certainty::touching_at_start));
+  CHECK(std::hypot(set[0].normal[0], set[0].normal[1], set[0].normal[2]) == Approx(1));
   s.x_t1(0, 0) += 1;
   set = construct_active_set(two_points(), s.x_t0, s.x_t1, o);
   REQUIRE(set.size() == 1);
-  CHECK(set.status[0] == Outcome::initial_contact);
+  CHECK(set[0].outcome == PairOutcome::initial_contact);
   o.touching_may_pass_through = true;
-  CHECK(construct_active_set(two_points(), s.x_t0, s.x_t1, o).status[0] == Outcome::initial_separating);
+  CHECK(construct_active_set(two_points(), s.x_t0, s.x_t1, o)[0].outcome == PairOutcome::initial_separating);
 }
 
 TEST_CASE("two points with a separation meet when |p(t)| = d", "[property]") {
@@ -216,7 +217,7 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
     std::vector<double> t(24, 0);
     if (!grid && round % 4 == 1) {
       for (double& x : t) x = scenes::uniform(random, 0, 0.1);
-      m.mesh.set_thickness(t);
+      set_rule(m.mesh, &CollisionRules::thickness, t);
     }
     const ActiveSet set = construct_active_set(m.mesh, m.scene.x_t0, m.scene.x_t1, o);
     Options less = o;
@@ -245,11 +246,11 @@ TEST_CASE("points among wires and triangles: each pair keeps the promises, all b
     });
     for (std::size_t i = 0; i < set.size(); ++i)
       for (const std::size_t side : {0u, 2u}) {
-        if (set.kind[i] == PairKind::vertex_face || !is_point(m.mesh, side == 0 ? set.a[i] : set.b[i]))
+        if (set[i].kind == PairKind::vertex_face || !is_point(m.mesh, side == 0 ? set[i].a : set[i].b))
           continue;
-        CHECK((std::abs(set.weight[i][side]) == 1 && set.weight[i][side + 1] == 0));
-        CHECK((set.degenerate[i] == 0 || set.gap[i] < 1e-10));
-        CHECK(std::hypot(set.normal[i][0], set.normal[i][1], set.normal[i][2]) == Approx(1));
+        CHECK((std::abs(set[i].weights[side]) == 1 && set[i].weights[side + 1] == 0));
+        CHECK((!set[i].degenerate || set[i].gap < 1e-10));
+        CHECK(std::hypot(set[i].normal[0], set[i].normal[1], set[i].normal[2]) == Approx(1));
       }
     const StepResult step = compute_collision_free_stepsize(m.mesh, m.scene.x_t0, m.scene.x_t1, o);
     for (const BroadPhaseMethod method :
@@ -272,13 +273,16 @@ TEST_CASE("the plan counts points as edges, with and without rules", "[property]
     if (rules == 1) {
       std::vector<bool> fixed(std::size_t(vertices), false);
       for (int v : {5, 6, 7, 14, 15, 16}) fixed[std::size_t(v)] = true;
-      m.mesh.set_static(fixed);
+      set_rule(m.mesh, &CollisionRules::static_vertices, fixed);
       m.scene.x_t1 = m.scene.x_t0;
     }
-    if (rules >= 2) m.mesh.set_bodies(m.mesh.components());
-    if (rules == 2) m.mesh.set_rigid(std::vector<bool>(std::size_t(m.mesh.num_bodies()), true));
-    if (rules == 3) m.mesh.set_excluded_bodies({{0, m.mesh.body(14)}, {m.mesh.body(15), m.mesh.body(16)}});
-    if (rules == 4) m.mesh.set_excluded_vertices({{3, 14}, {15, 16}, {0, 17}});
+    if (rules >= 2) set_rule(m.mesh, &CollisionRules::bodies, m.mesh.components());
+    const std::vector<bool> all_bodies(std::size_t(m.mesh.num_bodies()), true);
+    if (rules == 2) set_rule(m.mesh, &CollisionRules::rigid_bodies, all_bodies);
+    if (rules == 3)
+      set_rule(m.mesh, &CollisionRules::excluded_bodies,
+               {{0, m.mesh.body(14)}, {m.mesh.body(15), m.mesh.body(16)}});
+    if (rules == 4) set_rule(m.mesh, &CollisionRules::excluded_vertices, {{3, 14}, {15, 16}, {0, 17}});
     Options o;
     o.min_separation = 100;  // all are candidates
     const Candidates all = compute_candidates(m.mesh, m.scene.x_t0, m.scene.x_t1, o);
@@ -327,23 +331,25 @@ TEST_CASE("points in distance sets, line searches, listed pairs and constraints"
     const double cfl = compute_cfl_stepsize(m.mesh, x, m.scene.x_t1, close, o).step;
     CHECK(cfl <= step.step);
     CHECK(safe_step(safe_distances(m.mesh, x, close), dx) <= step.step);
-    const LineSearch search(m.mesh, x, dx, o, 0.2, d_hat);
+    LineSearchOptions search_options = o;
+    search_options.d_hat = d_hat;
+    const LineSearch search(m.mesh, x, dx, search_options);
     const LineSearchStep s = search.largest_step();
-    CHECK(s.result.step <= step.step);
+    CHECK(s.step <= step.step);
     if (step.step > 0) {
-      CHECK(s.result.step > 0);
-      CHECK(close_pairs(m.mesh, x + s.result.step * dx, d_hat, o).size() <=
-            search.close_pairs(s.result.step).size());
-      CHECK(is_step_collision_free(m.mesh, x, x + s.result.step * dx, o));
+      CHECK(s.step > 0);
+      CHECK(close_pairs(m.mesh, x + s.step * dx, d_hat, o).size() <=
+            search.close_pairs(s.step).size());
+      CHECK(is_step_collision_free(m.mesh, x, x + s.step * dx, o));
     }
 
     const ActiveSet set = construct_active_set(m.mesh, x, m.scene.x_t1, o);
     const Constraints c = assemble_constraints(set, 0.01);
     for (std::size_t i = 0; i < set.size(); ++i) {
       double sum = 0;
-      const Eigen::MatrixXd at = x + set.toi[i] * dx;
+      const Eigen::MatrixXd at = x + set[i].toi * dx;
       for (std::size_t k = 12 * i; k < 12 * i + 12; ++k) sum += c.value[k] * at(c.dof[k] / 3, c.dof[k] % 3);
-      CHECK(sum == Approx(set.gap[i]).epsilon(1e-6));
+      CHECK(sum == Approx(set[i].gap).epsilon(1e-6));
     }
   }
   CHECK(near_points > 50);

@@ -4,6 +4,7 @@
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/narrowphase/separation.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/support/mesh_pairs.hpp"
 #include "tests/src/support/scene_set.hpp"
 
@@ -11,6 +12,7 @@ using namespace onset;
 using namespace onset::tests;
 using scenes::Query;
 using scenes::Random;
+using scenes::set_rule;
 
 namespace {
 
@@ -31,7 +33,7 @@ TEST_CASE("each pair of a scene with thickness answers as the query with that se
       if (named.scene.faces.rows() > 40) named.scene = scenes::sphere_onto_cube(3, 6, 0.25, 0.4);
       Mesh mesh = named.mesh();
       const std::vector<double> t = random_thickness(mesh, 0.05, random);
-      mesh.set_thickness(t);
+      set_rule(mesh, &CollisionRules::thickness, t);
       Options o;
       o.min_separation = 0.01;
       o.norm = norm;
@@ -52,7 +54,7 @@ TEST_CASE("each pair of a scene with thickness answers as the query with that se
         if (found) {
           CHECK(closest <= d + 1.1e-6);
           const QueryResult r = ccd(query, alone);
-          CHECK(std::abs(r.toi - active.toi[i]) < 1e-3);
+          CHECK(std::abs(r.toi - active[i].toi) < 1e-3);
         } else {
           CHECK(closest >= d * (1 - 1e-9));
         }
@@ -66,7 +68,8 @@ TEST_CASE("uniform thickness is a separation of twice as much", "[property]") {
   for (const NamedScene& named : some_scenes()) {
     Mesh thick = named.mesh();
     const Mesh thin = named.mesh();
-    thick.set_thickness(std::vector<double>(std::size_t(thick.num_vertices()), 0x1p-6));
+    set_rule(thick, &CollisionRules::thickness,
+             std::vector<double>(std::size_t(thick.num_vertices()), 0x1p-6));
     Options o, twice;
     o.tolerance = twice.tolerance = 1e-6;
     twice.min_separation = 0x1p-5 * (1 + 0x1p-51);  // as the sum is rounded up
@@ -83,10 +86,10 @@ TEST_CASE("zero thickness changes nothing, and the broad phases agree with thick
     Options o;
     o.tolerance = 1e-6;
     const ActiveSet plain = construct_active_set(mesh, named.scene.x_t0, named.scene.x_t1, o);
-    mesh.set_thickness(std::vector<double>(std::size_t(mesh.num_vertices()), 0));
+    set_rule(mesh, &CollisionRules::thickness, std::vector<double>(std::size_t(mesh.num_vertices()), 0));
     CAPTURE(named.name);
     CHECK(same_bytes(plain, construct_active_set(mesh, named.scene.x_t0, named.scene.x_t1, o)));
-    mesh.set_thickness(random_thickness(mesh, 0.1, random));
+    set_rule(mesh, &CollisionRules::thickness, random_thickness(mesh, 0.1, random));
     o.min_separation = 1e-3;
     const ActiveSet automatic = construct_active_set(mesh, named.scene.x_t0, named.scene.x_t1, o);
     o.broad_phase = BroadPhaseMethod::brute;

@@ -6,12 +6,20 @@
 #include "tests/narrowphase/exact/exact_pair.hpp"
 #include "tests/narrowphase/kernel/kernels.hpp"
 #include "tests/oracle/distance.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/support/scene_set.hpp"
 
 using namespace onset;
 using namespace onset::tests;
+using scenes::set_rule;
 
 namespace {
+
+LineSearchOptions within(double d_hat, const Options& options = {}) {
+  LineSearchOptions all = options;
+  all.d_hat = d_hat;
+  return all;
+}
 
 using Key = std::tuple<PairKind, int, int>;
 
@@ -122,7 +130,7 @@ TEST_CASE("the line search hands out the pairs within d-hat at any step", "[orac
     const Mesh mesh = named.mesh();
     const Eigen::MatrixXd &x = named.scene.x_t0, dx = named.scene.x_t1 - x;
     const double d_hat = 0.03;
-    const LineSearch search(mesh, x, dx, {}, 0.2, d_hat);
+    const LineSearch search(mesh, x, dx, within(d_hat));
     for (const double step : {0.0, 0.1, 0.7123, 1.0}) {
       CAPTURE(named.name, step);
       const Eigen::MatrixXd there = x + step * dx;
@@ -147,9 +155,9 @@ TEST_CASE("a pair that comes near without its boxes overlapping keeps a share of
   for (const double left : {0.0, 0x1p-60, 0x1p-40, 1e-3, 0.05}) {
     CAPTURE(left);
     dx.col(2).tail(3).array() = left - 0.5;
-    const double step = LineSearch(mesh, x, dx).largest_step().result.step;
+    const double step = LineSearch(mesh, x, dx).largest_step().step;
     CHECK((x + step * dx)(3, 2) >= std::min(0.1, left < 1e-5 ? 0.1 : left) - 1e-12);
-    const double with_d_hat = LineSearch(mesh, x, dx, {}, 0.2, 0.01).largest_step().result.step;
+    const double with_d_hat = LineSearch(mesh, x, dx, within(0.01)).largest_step().step;
     CHECK((x + with_d_hat * dx)(3, 2) >= std::min(0.1, left < 0.01 ? 0.1 : left) - 1e-12);
   }
 }
@@ -160,7 +168,7 @@ TEST_CASE("d-hat is measured beyond separation and thickness", "[oracle]") {
   Options options;
   options.min_separation = 0.02;
   check(mesh, named.scene.x_t0, close_pairs(mesh, named.scene.x_t0, 0.15, options), 0.02);
-  mesh.set_thickness(std::vector<double>(std::size_t(mesh.num_vertices()), 0.01));
+  set_rule(mesh, &CollisionRules::thickness, std::vector<double>(std::size_t(mesh.num_vertices()), 0.01));
   const ClosePairs thick = close_pairs(mesh, named.scene.x_t0, 0.15, options);
   REQUIRE(thick.size() > 0);
   CHECK(std::fabs(thick.pairs[0].separation - 0.04) < 1e-15);
@@ -179,14 +187,14 @@ TEST_CASE("threads, kernels and broad phases give the same distance set", "[dete
     o.instruction_set = InstructionSet::scalar;
     o.threads = 1;
     const ClosePairs still = close_pairs(mesh, x, 0.05, o);
-    const ClosePairs moved = LineSearch(mesh, x, dx, o, 0.2, 0.05).close_pairs(0.5);
+    const ClosePairs moved = LineSearch(mesh, x, dx, within(0.05, o)).close_pairs(0.5);
     for (InstructionSet kernel : kernels())
       for (int threads : {1, 4})
         for (BroadPhaseMethod method : {BroadPhaseMethod::brute, BroadPhaseMethod::bvh}) {
           o.instruction_set = kernel, o.threads = threads, o.broad_phase = method;
           CAPTURE(named.name, threads, int(kernel), int(method));
           CHECK(same_bytes(still, close_pairs(mesh, x, 0.05, o)));
-          CHECK(same_bytes(moved, LineSearch(mesh, x, dx, o, 0.2, 0.05).close_pairs(0.5)));
+          CHECK(same_bytes(moved, LineSearch(mesh, x, dx, within(0.05, o)).close_pairs(0.5)));
         }
   }
 }
@@ -238,9 +246,9 @@ TEST_CASE("distance sets asked for wrongly are rejected, bad positions are an ou
   CHECK_THROWS_AS(close_pairs(mesh, x, 0), std::invalid_argument);
   CHECK_THROWS_AS(close_pairs(mesh, x, NAN), std::invalid_argument);
   CHECK_THROWS_AS(close_pairs(mesh, x.topRows(3), 0.1), std::invalid_argument);
-  CHECK_THROWS_AS(LineSearch(mesh, x, dx, {}, 0.2, -1), std::invalid_argument);
+  CHECK_THROWS_AS(LineSearch(mesh, x, dx, within(-1)), std::invalid_argument);
   CHECK_THROWS_AS(LineSearch(mesh, x, dx).close_pairs(0.5), std::invalid_argument);
-  CHECK_THROWS_AS(LineSearch(mesh, x, dx, {}, 0.2, 0.1).close_pairs(1.5), std::invalid_argument);
+  CHECK_THROWS_AS(LineSearch(mesh, x, dx, within(0.1)).close_pairs(1.5), std::invalid_argument);
   x(7, 1) = NAN;
   const ClosePairs bad = close_pairs(mesh, x, 0.1);
   CHECK(bad.outcome == Outcome::non_finite);

@@ -14,11 +14,11 @@ static void expect_free(const Mesh& mesh, const Eigen::MatrixXd& a, const Eigen:
       const StepResult r = compute_collision_free_stepsize(mesh, a, b, o);
       CHECK(r.outcome == Outcome::free);
       CHECK(r.step == 1);
-      CHECK(r.limiting.a == -1);
+      CHECK_FALSE(r.limiting);
       const ActiveSet s = construct_active_set(mesh, a, b, o);
       CHECK(s.outcome == Outcome::free);
       CHECK(s.size() == 0);
-      CHECK(s.earliest() == -1);
+      CHECK(s.earliest() == nullptr);
       CHECK(is_step_collision_free(mesh, a, b, o));
       CHECK(compute_candidates(mesh, a, b, o).counts.total() == 0);
     }
@@ -29,6 +29,7 @@ TEST_CASE("nothing at all", "[unit]") {
   expect_free(Mesh(none, Eigen::MatrixXi(0, 3)), none, none);
   expect_free(Mesh(0, Eigen::MatrixXi(0, 2), Eigen::MatrixXi(0, 3)), none, none);
   expect_free(Mesh(0, Indices{}, Indices{}), none, none);
+  expect_free(Mesh(), none, none);
 }
 
 TEST_CASE("vertices alone", "[unit]") {
@@ -57,7 +58,8 @@ TEST_CASE("edges without faces meet each other, a face meets a vertex of no othe
   E << 0, 1, 2, 3;
   const StepResult edges = compute_collision_free_stepsize(Mesh(4, E, Eigen::MatrixXi(0, 3)), a, b);
   CHECK(edges.outcome == Outcome::contact);
-  CHECK(edges.limiting.kind == PairKind::edge_edge);
+  REQUIRE(edges.limiting);
+  CHECK(edges.limiting->kind == PairKind::edge_edge);
   CHECK(edges.step > 0.499);
   CHECK(edges.step <= 0.5);
 
@@ -68,7 +70,8 @@ TEST_CASE("edges without faces meet each other, a face meets a vertex of no othe
   F << 1, 2, 3;
   const StepResult face = compute_collision_free_stepsize(Mesh(4, F), a, b);
   CHECK(face.outcome == Outcome::contact);
-  CHECK(face.limiting.kind == PairKind::vertex_face);
+  REQUIRE(face.limiting);
+  CHECK(face.limiting->kind == PairKind::vertex_face);
   CHECK(face.step > 0.499);
   CHECK(face.step <= 0.5);
 }

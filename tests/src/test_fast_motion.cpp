@@ -29,7 +29,7 @@ int expect_all_that_touch(const scenes::Scene& scene) {
   int contacts = 0;
   for_all_pairs(mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
     const QueryResult alone = ccd(query_of(kind, v, scene.x_t0, scene.x_t1), o);
-    const bool touches = alone.outcome != Outcome::free, found = row_of(set, {kind, a, b}) < set.size();
+    const bool touches = alone.outcome != PairOutcome::free, found = row_of(set, {kind, a, b}) < set.size();
     contacts += touches;
     if (touches != found)
       FAIL_CHECK((touches ? "missed: " : "too much: ") << int(kind) << " " << a << " " << b);

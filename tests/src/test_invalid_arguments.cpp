@@ -3,10 +3,12 @@
 #include <stdexcept>
 
 #include "tests/catch.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/support/scene_set.hpp"
 
 using namespace onset;
 using namespace onset::tests;
+using scenes::set_rule;
 
 namespace {
 
@@ -71,6 +73,17 @@ TEST_CASE("wrong numbers of rows and columns are named", "[unit]") {
   expect(c.with(good, Eigen::VectorXd::Zero(27)), {"x_t1", "9", "8"});
 }
 
+// What a caller has who keeps one vertex a column.
+TEST_CASE("positions of one column a vertex are told what to pass instead", "[unit]") {
+  const Calls c;
+  const Eigen::MatrixXd good = c.scene.x_t0, columns = good.transpose();
+  expect(c.with(columns, good), {"x_t0", "transpose()", "data()"});
+  expect(c.with(good, columns), {"x_t1", "transpose()", "data()"});
+  const StepResult still =
+      compute_collision_free_stepsize(c.mesh, columns.transpose(), Positions(columns.data(), 8));
+  CHECK(still.step == 1);
+}
+
 TEST_CASE("options out of range are named with their value", "[unit]") {
   for (double bad : {0.0, -1.0, double(NAN), double(INFINITY)}) {
     Options o;
@@ -129,10 +142,13 @@ TEST_CASE("bad topology is named by its row", "[unit]") {
 
 TEST_CASE("bad thickness is named by its row", "[unit]") {
   Calls c;
-  CHECK(names(message_of([&] { c.mesh.set_thickness({1, 2}); }), {"thickness", "2", "8"}));
+  const auto thick = [&](const std::vector<double>& t) {
+    return message_of([&] { set_rule(c.mesh, &CollisionRules::thickness, t); });
+  };
+  CHECK(names(thick({1, 2}), {"thickness", "2", "8"}));
   std::vector<double> t(8, 0.1);
   for (double bad : {-0.5, double(NAN), double(INFINITY)}) {
     t[5] = bad;
-    CHECK(names(message_of([&] { c.mesh.set_thickness(t); }), {"thickness", "5"}));
+    CHECK(names(thick(t), {"thickness", "row 5"}));
   }
 }

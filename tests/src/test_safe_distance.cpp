@@ -36,8 +36,8 @@ Eigen::MatrixXd motion_within(const std::vector<double>& r, const Eigen::MatrixX
 double first_contact(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1) {
   double first = INFINITY;
   const ActiveSet set = construct_active_set(mesh, x_t0, x_t1);
-  for (std::size_t i = 0; i < set.size(); ++i)
-    first = std::min(first, oracle::exact_ccd(query_of(set.kind[i], set.vertices[i], x_t0, x_t1)).toi_lo);
+  for (const Contact& c : set)
+    first = std::min(first, oracle::exact_ccd(query_of(c.kind, c.vertices, x_t0, x_t1)).toi_lo);
   return first;
 }
 
@@ -61,14 +61,14 @@ TEST_CASE("motion within the safe distances makes no contact", "[oracle][propert
         conservative.exactness = Exactness::conservative;
         // Pairs that touch from the start have r = 0 and stay as they are.
         const ActiveSet set = construct_active_set(mesh, x, there, conservative);
-        for (std::size_t i = 0; i < set.size(); ++i) {
-          const scenes::Query q = query_of(set.kind[i], set.vertices[i], x, there);
-          if (set.status[i] == Outcome::initial_contact || set.status[i] == Outcome::initial_separating)
+        for (const Contact& c : set) {
+          const scenes::Query q = query_of(c.kind, c.vertices, x, there);
+          if (c.outcome == PairOutcome::initial_contact || c.outcome == PairOutcome::initial_separating)
             continue;
           ++pressed_hard;
           CHECK_FALSE(oracle::exact_ccd(q).collides);
         }
-        const bool touching = set.earliest() >= 0 && set.toi[std::size_t(set.earliest())] == 0;
+        const bool touching = !set.empty() && set.earliest()->toi == 0;
         if (!touching) CHECK(is_step_collision_free(mesh, x, x + 0.99 * dx));
       }
   CHECK(pressed_hard > 0);  // some came within the tolerance, and exact arithmetic still saw no contact
@@ -115,7 +115,7 @@ TEST_CASE("a CFL step out of time is the one that the distances allow", "[oracle
       const StepResult r = compute_cfl_stepsize(mesh, x, there, close, o, 0);
       const double by_gaps = safe_step(safe_distances(mesh, x, close), there - x);
       CHECK(r.step == by_gaps);
-      CHECK((r.step <= first_contact(mesh, x, there) && r.limiting.a == -1));
+      CHECK((r.step <= first_contact(mesh, x, there) && !r.limiting));
       CHECK(r.outcome == (r.step < 1 ? Outcome::out_of_time : Outcome::free));
       longer += r.step > 0;
     }
@@ -137,7 +137,7 @@ TEST_CASE("a fast triangle far from another is stopped by the bound", "[unit]") 
   CHECK(r.step <= 0.005);
   CHECK(r.step > 0.0049);
   CHECK(r.outcome == Outcome::free);
-  CHECK(r.limiting.a == -1);
+  CHECK_FALSE(r.limiting);
   const StepResult wide = compute_cfl_stepsize(mesh, x, there, close_pairs(mesh, x, 4), {}, 0);
   CHECK(wide.outcome == Outcome::contact);
   CHECK(wide.step == compute_collision_free_stepsize(mesh, x, there).step);

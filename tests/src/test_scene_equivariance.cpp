@@ -42,10 +42,10 @@ const SignedPermutation kIdentity{{0, 1, 2}, {1, 1, 1}};
 
 // The contacts' geometry as the other scene has it; zeros without a sign.
 ActiveSet in_other_scene(ActiveSet set, double unit, const SignedPermutation& p) {
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const auto n = set.normal[i];
-    for (int a = 0; a < 3; ++a) set.normal[i][a] = p.signs[a] * n[p.axes[a]] + 0.0;
-    set.gap[i] *= unit, set.speed[i] = set.speed[i] * unit + 0.0;
+  for (Contact& c : set.contacts) {
+    const auto n = c.normal;
+    for (int a = 0; a < 3; ++a) c.normal[a] = p.signs[a] * n[p.axes[a]] + 0.0;
+    c.gap *= unit, c.tolerance *= unit, c.speed = c.speed * unit + 0.0;
   }
   return set;
 }

@@ -21,7 +21,7 @@ std::vector<Options> ways_to_ask() {
 }
 
 // Entries that limit a step by their toi: what separates at the start does not.
-bool limits(Outcome status) { return status != Outcome::initial_separating; }
+bool limits(const Contact& contact) { return contact.outcome != PairOutcome::initial_separating; }
 
 }  // namespace
 
@@ -35,25 +35,24 @@ TEST_CASE("the step is the smallest toi of the active set, bit for bit", "[prope
       CAPTURE(named.name, o.min_separation, int(o.norm), o.max_checks, active.size(), step.step,
               to_string(step.outcome));
       double smallest = 1;
-      std::ptrdiff_t at = -1;
+      const Contact* at = nullptr;
       bool parting = false;
-      for (std::size_t i = 0; i < active.size(); ++i) {
-        CHECK(active.toi[i] >= 0);
-        CHECK(active.toi[i] <= 1);
-        CHECK((active.toi[i] > 0 || active.status[i] == Outcome::initial_contact ||
-               active.status[i] == Outcome::initial_separating));
-        parting |= !limits(active.status[i]);
-        if (limits(active.status[i]) && (active.toi[i] < smallest))
-          smallest = active.toi[i], at = std::ptrdiff_t(i);
+      for (const Contact& c : active) {
+        CHECK(c.toi >= 0);
+        CHECK(c.toi <= 1);
+        CHECK((c.toi > 0 || c.outcome == PairOutcome::initial_contact ||
+               c.outcome == PairOutcome::initial_separating));
+        parting |= !limits(c);
+        if (limits(c) && c.toi < smallest) smallest = c.toi, at = &c;
       }
       CHECK(step.step <= smallest);
       CHECK((step.step > 0 || step.outcome == Outcome::initial_contact ||
              step.outcome == Outcome::below_rounding));
       if (!parting) {  // what parts at the start may be met again, which only the step tells
-        CHECK(step.toi == (at < 0 ? INFINITY : smallest));
+        CHECK(step.toi == (at == nullptr ? INFINITY : smallest));
         CHECK(step.step >= smallest * (1 - 1e-6) - 1e-9);  // rounding takes little
-        CHECK((at < 0 || step.limiting.a >= 0));
-        CHECK((at < 0 || at == active.earliest()));
+        CHECK((at == nullptr || step.limiting));
+        CHECK((at == nullptr || at == active.earliest()));
       }
       CHECK((step.step == 1) == (step.outcome == Outcome::free));
       CHECK(is_step_collision_free(mesh, named.scene.x_t0, named.scene.x_t1, o) ==
@@ -73,14 +72,14 @@ TEST_CASE("the active set is sorted and names each pair once, with its vertices"
     CHECK(s.stats.contacts.total() == std::int64_t(s.size()));
     for (std::size_t i = 0; i < s.size(); ++i) {
       if (i > 0)
-        CHECK(std::tuple(s.kind[i - 1], s.a[i - 1], s.b[i - 1]) < std::tuple(s.kind[i], s.a[i], s.b[i]));
-      const auto& v = s.vertices[i];
-      if (s.kind[i] == PairKind::vertex_face) {
-        const auto f = mesh.face(s.b[i]);
-        CHECK(v == std::array<int, 4>{s.a[i], f[0], f[1], f[2]});
+        CHECK(std::tuple(s[i - 1].kind, s[i - 1].a, s[i - 1].b) < std::tuple(s[i].kind, s[i].a, s[i].b));
+      const auto& v = s[i].vertices;
+      if (s[i].kind == PairKind::vertex_face) {
+        const auto f = mesh.face(s[i].b);
+        CHECK(v == std::array<int, 4>{s[i].a, f[0], f[1], f[2]});
       } else {
-        const auto e = mesh.edge(s.a[i]), g = mesh.edge(s.b[i]);
-        CHECK(s.a[i] < s.b[i]);
+        const auto e = mesh.edge(s[i].a), g = mesh.edge(s[i].b);
+        CHECK(s[i].a < s[i].b);
         CHECK(v == std::array<int, 4>{e[0], e[1], g[0], g[1]});
       }
       CHECK(std::count(v.begin(), v.end(), v[0]) == 1);

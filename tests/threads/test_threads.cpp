@@ -41,14 +41,17 @@ struct Shared {
   std::string ask(const Options& o) const {
     std::string bytes;
     const StepResult step = compute_collision_free_stepsize(mesh, scene.x_t0, scene.x_t1, o);
-    append(bytes, step.step), append(bytes, step.outcome), append(bytes, step.limiting.vertices);
+    append(bytes, step.step), append(bytes, step.outcome);
+    append(bytes, step.limiting.value_or(Pair{}).vertices);
     const ActiveSet set = construct_active_set(mesh, scene.x_t0, scene.x_t1, o);
-    append(bytes, set.kind), append(bytes, set.a), append(bytes, set.b), append(bytes, set.toi);
-    append(bytes, set.status), append(bytes, set.normal), append(bytes, set.weight), append(bytes, set.gap);
+    for (const Contact& c : set) {
+      append(bytes, c.kind), append(bytes, c.a), append(bytes, c.b), append(bytes, c.toi);
+      append(bytes, c.outcome), append(bytes, c.normal), append(bytes, c.weights), append(bytes, c.gap);
+    }
     const Candidates pairs = compute_candidates(mesh, scene.x_t0, scene.x_t1, o);
     append(bytes, pairs.vertex_face), append(bytes, pairs.edge_edge);
     append(bytes, is_step_collision_free(mesh, scene.x_t0, scene.x_t1, o));
-    for (const double upper : {1.0, 0.3}) append(bytes, search.largest_step(upper).result.step);
+    for (const double upper : {1.0, 0.3}) append(bytes, search.largest_step(upper).step);
     return bytes;
   }
 };

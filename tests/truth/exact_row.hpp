@@ -86,23 +86,23 @@ struct Counts {
 class RowCheck {
  public:
   RowCheck(const scenes::Query& q, const ActiveSet& s) : motion_(q), set_(s) {
-    t_ = set_.toi[0];
-    n_ = exact(set_.normal[0]);
+    t_ = set_[0].toi;
+    n_ = exact(set_[0].normal);
     shortest_ = motion_.shortest(Rational(t_));
     gap_ = PairMotion::length(shortest_);
-    flagged_ = set_.degenerate[0] != 0;
+    flagged_ = set_[0].degenerate;
   }
 
   void check(Past past, Counts& counts) {
     const double rho = motion_.rho;
-    CAPTURE(t_, gap_, rho, flagged_, set_.normal[0][0], set_.normal[0][1], set_.normal[0][2], set_.speed[0],
-            set_.weight[0][1], set_.weight[0][2], set_.weight[0][3], to_string(set_.status[0]));
+    CAPTURE(t_, gap_, rho, flagged_, set_[0].normal[0], set_[0].normal[1], set_[0].normal[2], set_[0].speed,
+            set_[0].weights[1], set_[0].weights[2], set_[0].weights[3], to_string(set_[0].outcome));
     CHECK(std::fabs(PairMotion::length(n_) - 1) <= 0x1p-49);
-    const bool resolved = gap_ > 0x1p-45 * rho, inside = depth(set_.weight[0]) > 0x1p-30;
+    const bool resolved = gap_ > 0x1p-45 * rho, inside = depth(set_[0].weights) > 0x1p-30;
     ++counts.rows, counts.flagged += flagged_, counts.resolved += resolved, counts.inside += inside;
     if (resolved) CHECK_FALSE(flagged_);
     if (gap_ > 0 && !flagged_) check_along(shortest_);
-    if (gap_ == 0 && depth(set_.weight[0]) == 0) CHECK(flagged_);
+    if (gap_ == 0 && depth(set_[0].weights) == 0) CHECK(flagged_);
     if (gap_ == 0 && t_ == 0) CHECK(flagged_);
     if (inside) check_inside();
     check_weights_and_speed(past);
@@ -129,16 +129,16 @@ class RowCheck {
     const auto difference = [&](const std::array<Exact, 4>& x) {
       Exact sum{0, 0, 0};
       for (std::size_t i = 0; i < 4; ++i)
-        sum = plus(sum, oracle::scaled<Rational>(Rational(set_.weight[0][i]), x[i]));
+        sum = plus(sum, oracle::scaled<Rational>(Rational(set_[0].weights[i]), x[i]));
       return sum;
     };
     const double noise = 0x1p-47 * motion_.rho + motion_.in_units(0x1p-1074);
     const Exact apart = difference(motion_.at(Rational(t_)));
-    CHECK(std::fabs(PairMotion::length(apart) - motion_.in_units(set_.gap[0])) <= noise);
+    CHECK(std::fabs(PairMotion::length(apart) - motion_.in_units(set_[0].gap)) <= noise);
     CHECK(PairMotion::length(apart) <= gap_ + noise);
     const Exact moved = difference(motion_.x1) - difference(motion_.x0);
     const double exact_speed = static_cast<double>(Rational(dot(n_, moved))),
-                 speed = motion_.in_units(set_.speed[0]);
+                 speed = motion_.in_units(set_[0].speed);
     CHECK(std::fabs(speed - exact_speed) <= noise);
     const double still = 0x1p-49 * PairMotion::length(moved);
     if (past == Past::closing) {

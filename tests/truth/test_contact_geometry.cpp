@@ -61,12 +61,12 @@ struct Row {
 
   double speed_share() const {  // of the speed of the contact points
     const double motion = norm(difference(positions(query, 1)) - difference(positions(query, 0)));
-    return motion > 0 ? set.speed[0] / motion : 0;
+    return motion > 0 ? set[0].speed / motion : 0;
   }
   void check() const {
-    const auto& w = set.weight[0];
-    const auto& n = set.normal[0];
-    const std::array<Exact, 4> x = positions(query, set.toi[0]);
+    const auto& w = set[0].weights;
+    const auto& n = set[0].normal;
+    const std::array<Exact, 4> x = positions(query, set[0].toi);
     const double rho = rho_of(query), noise = 64 * 0x1p-53 * rho;
     const int first = scenes::first_body(query.kind);
     double sums[2] = {0, 0};
@@ -81,10 +81,10 @@ struct Row {
     const Exact apart = difference(x);
     const double size = norm(apart),
                  least = norm(oracle::shortest_difference(oracle::relative(query.kind, x)));
-    CAPTURE(size, least, noise, set.gap[0], n[0], n[1], n[2]);
+    CAPTURE(size, least, noise, set[0].gap, n[0], n[1], n[2]);
     CHECK(size <= least + noise);
-    CHECK(std::fabs(set.gap[0] - size) <= noise);
-    if (set.status[0] != Outcome::max_checks)
+    CHECK(std::fabs(set[0].gap - size) <= noise);
+    if (set[0].outcome != PairOutcome::max_checks)
       CHECK(size <= (d + set.stats.achieved_tolerance) * (1 + 0x1p-40) + noise);
 
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -95,16 +95,16 @@ struct Row {
     if (size > 0x1p14 * noise) CHECK(along >= size * (1 - 0x1p-6));
     const double speed =
         double(dot(exact(n), difference(positions(query, 1)) - difference(positions(query, 0))));
-    CHECK(std::fabs(set.speed[0] - speed) <= 4 * noise);
+    CHECK(std::fabs(set[0].speed - speed) <= 4 * noise);
     const auto strictly = [](double weight) { return std::fabs(weight) > 0x1p-30; };
-    if (!set.degenerate[0] && std::all_of(w.begin(), w.end(), strictly)) check_square(x, n, noise);
-    if (least > 0x1p-40 * rho) CHECK(set.degenerate[0] == 0);
+    if (!set[0].degenerate && std::all_of(w.begin(), w.end(), strictly)) check_square(x, n, noise);
+    if (least > 0x1p-40 * rho) CHECK_FALSE(set[0].degenerate);
   }
 
  private:
   Exact difference(const std::array<Exact, 4>& x) const {
     Exact sum{0, 0, 0};
-    for (int i = 0; i < 4; ++i) sum = sum - oracle::scaled<Rational>(Rational(-set.weight[0][i]), x[i]);
+    for (int i = 0; i < 4; ++i) sum = sum - oracle::scaled<Rational>(Rational(-set[0].weights[i]), x[i]);
     return sum;
   }
   // Inside both primitives: the paper's normal.
@@ -127,11 +127,11 @@ bool check(const Query& query, double d, double tolerance, bool closes) {
       construct_active_set(mesh_of(query.kind), matrix(query.t0), matrix(query.t1), options);
   if (set.size() == 0) return false;
   INFO(to_text(query));
-  CAPTURE(d, set.toi[0], to_string(set.status[0]), int(set.degenerate[0]));
+  CAPTURE(d, set[0].toi, to_string(set[0].outcome), int(set[0].degenerate));
   const Row row{query, set, d};
   row.check();
   // Generic pairs close, unless they slide past: the normal points to where they came from.
-  if (closes && set.status[0] == Outcome::contact && std::fabs(row.speed_share()) > 0x1p-10)
+  if (closes && set[0].outcome == PairOutcome::contact && std::fabs(row.speed_share()) > 0x1p-10)
     CHECK(row.speed_share() < 0);
   return true;
 }
@@ -183,11 +183,11 @@ TEST_CASE("a vertex that falls on a face has the face's normal on its own side",
                       {{{0.25, 0.25, -side}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
     const ActiveSet set = construct_active_set(mesh_of(query.kind), matrix(query.t0), matrix(query.t1));
     REQUIRE(set.size() == 1);
-    CHECK(set.normal[0] == Point{0, 0, side});
-    CHECK(set.weight[0] == std::array<double, 4>{1, -0.5, -0.25, -0.25});
-    CHECK(set.speed[0] == -2);
-    CHECK(set.gap[0] <= set.stats.achieved_tolerance);
-    CHECK(set.degenerate[0] == 0);
+    CHECK(set[0].normal == Point{0, 0, side});
+    CHECK(set[0].weights == std::array<double, 4>{1, -0.5, -0.25, -0.25});
+    CHECK(set[0].speed == -2);
+    CHECK(set[0].gap <= set.stats.achieved_tolerance);
+    CHECK_FALSE(set[0].degenerate);
   }
 }
 
@@ -214,8 +214,8 @@ TEST_CASE("pairs without a cross product have the normal of their gap, or touchi
       const ActiveSet set = construct_active_set(mesh_of(q.kind), matrix(q.t0), matrix(q.t1), o);
       REQUIRE(set.size() == 1);
       CAPTURE(scenes::name(q.kind), from);
-      CHECK(set.normal[0] == Point{0, 0, from == 1 ? 1.0 : -1.0});
-      CHECK(set.degenerate[0] == (from == 1 ? 0 : 1));
+      CHECK(set[0].normal == Point{0, 0, from == 1 ? 1.0 : -1.0});
+      CHECK(set[0].degenerate == (from != 1));
     }
 }
 
@@ -231,8 +231,8 @@ TEST_CASE("pairs that meet along an edge or within a plane are divided across th
     const ActiveSet set = construct_active_set(mesh_of(q.kind), matrix(q.t0), matrix(q.t1));
     REQUIRE(set.size() == 1);
     CAPTURE(scenes::name(q.kind));
-    CHECK(set.normal[0] == Point{0, 0, 1});
-    CHECK(set.degenerate[0] == 0);
+    CHECK(set[0].normal == Point{0, 0, 1});
+    CHECK_FALSE(set[0].degenerate);
   }
 }
 
@@ -255,9 +255,9 @@ TEST_CASE("constraints hold at the start of a step and tell how far its end is t
     double at_start = 0, at_end = 0;
     for (std::size_t k = 0; k < 12; ++k)
       at_start += c.value[k] * start[c.dof[k]], at_end += c.value[k] * end[c.dof[k]];
-    const double toi = set.toi[0], gap = set.gap[0];
-    CHECK(std::fabs(at_start + toi * set.speed[0] - gap) < 1e-13);
-    CHECK(std::fabs(at_end - (1 - toi) * set.speed[0] - gap) < 1e-13);
+    const double toi = set[0].toi, gap = set[0].gap;
+    CHECK(std::fabs(at_start + toi * set[0].speed - gap) < 1e-13);
+    CHECK(std::fabs(at_end - (1 - toi) * set[0].speed - gap) < 1e-13);
     rows += at_start > 0;
   }
   CHECK(rows == 50);
@@ -265,10 +265,11 @@ TEST_CASE("constraints hold at the start of a step and tell how far its end is t
 
 TEST_CASE("a map that cannot number the columns is rejected", "[unit]") {
   ActiveSet set;
-  set.kind = {PairKind::vertex_face};
-  set.vertices = {{0, 1, 2, 3}};
-  set.weight = {{1, -1, 0, 0}};
-  set.normal = {{0, 0, 1}};
+  Contact contact;
+  contact.vertices = {0, 1, 2, 3};
+  contact.weights = {1, -1, 0, 0};
+  contact.normal = {0, 0, 1};
+  set.contacts = {contact};
   CHECK(assemble_constraints(set).dof[11] == 11);
   CHECK_THROWS_AS(assemble_constraints(set, 0, {0, 1, 2}), std::invalid_argument);
   CHECK_THROWS_AS(assemble_constraints(set, 0, {0, 1, 2, -1}), std::invalid_argument);

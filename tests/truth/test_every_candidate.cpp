@@ -1,7 +1,8 @@
 // Every candidate pair of the recorded steps, decided exactly, against the active set at each level of
 // certainty. Half a minute.
 #include <map>
-#include <onset/pipeline.hpp>
+#include <onset/active_set.hpp>
+#include <onset/candidates.hpp>
 
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact/exact_query.hpp"
@@ -56,7 +57,7 @@ struct Differences {
 Differences compare(const Truth& truth, const ActiveSet& set) {
   Differences d;
   std::map<Key, std::size_t> rows;
-  for (std::size_t i = 0; i < set.size(); ++i) rows[{int(set.kind[i]), set.a[i], set.b[i]}] = i;
+  for (std::size_t i = 0; i < set.size(); ++i) rows[{int(set[i].kind), set[i].a, set[i].b}] = i;
   for (const auto& [key, time] : truth.contacts) {
     const auto row = rows.find(key);
     if (row == rows.end()) {
@@ -64,13 +65,13 @@ Differences compare(const Truth& truth, const ActiveSet& set) {
       continue;
     }
     const std::size_t i = row->second;
-    d.late += set.toi[i] > time.lo;
-    d.too_early_hi += set.toi_hi[i] < time.hi;
-    d.wrong_flags += (set.certainty[i] == Certainty::touching_at_start) && time.hi > 0;
+    d.late += set[i].toi > time.lo;
+    d.too_early_hi += set[i].toi_hi < time.hi;
+    d.wrong_flags += (set[i].certainty == Certainty::touching_at_start) && time.hi > 0;
   }
   for (const auto& [key, i] : rows) {
     const bool real = truth.contacts.count(key) > 0;
-    const bool certain = set.certainty[i] != Certainty::within_tolerance;
+    const bool certain = set[i].certainty != Certainty::within_tolerance;
     d.false_positives += !real;
     d.certain += certain;
     d.wrong_flags += certain && !real;

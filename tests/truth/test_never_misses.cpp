@@ -89,7 +89,8 @@ TEST_CASE("no check beyond the budget, and the tolerance as reported where it is
       for_all_options(choice, [&](const Options& options) {
         const QueryResult result = scenes::ccd(query, options);
         over += result.checks > options.max_checks;
-        if (result.outcome == Outcome::max_checks) wrong += oracle::tolerance_understated(query, options, result);
+        if (result.outcome == PairOutcome::max_checks)
+          wrong += oracle::tolerance_understated(query, options, result);
       });
     }
   CHECK(over == 0);

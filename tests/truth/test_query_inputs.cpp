@@ -60,17 +60,17 @@ TEST_CASE("NaN, infinity and coordinates beyond 2^1020 are outcomes, wherever th
         return scenes::ccd(query);
       };
       for (double x : {kNaN, -kNaN, kInfinity, -kInfinity}) {
-        CHECK(with(x).outcome == Outcome::non_finite);
+        CHECK(with(x).outcome == PairOutcome::non_finite);
         CHECK(with(x).toi == 0);
       }
       for (double x : {std::nextafter(0x1p1020, kInfinity), -std::numeric_limits<double>::max()}) {
-        CHECK(with(x).outcome == Outcome::out_of_range);
+        CHECK(with(x).outcome == PairOutcome::out_of_range);
         CHECK(with(x).toi == 0);
       }
       for (double x : {0x1p1020, -0x1p1020}) {
-        const Outcome outcome = with(x).outcome;
-        CHECK(outcome != Outcome::out_of_range);
-        CHECK(outcome != Outcome::non_finite);
+        const PairOutcome outcome = with(x).outcome;
+        CHECK(outcome != PairOutcome::out_of_range);
+        CHECK(outcome != PairOutcome::non_finite);
       }
     }
 }

@@ -56,7 +56,7 @@ TEST_CASE("examples of Wang et al. 2021, appendix B and C, by the library", "[un
   const Query inflection{PairKind::vertex_face,
                          {{{1, 1, 0}, {0, 0, 5}, {2, 0, 2}, {0, 1, 0}}},
                          {{{1, 1, 0}, {0, 0, -1}, {0, 0, -2}, {0, 7, 0}}}};
-  CHECK(scenes::ccd(inflection).outcome == Outcome::free);
+  CHECK(scenes::ccd(inflection).outcome == PairOutcome::free);
 }
 
 // At toi the pair is within a third of the tolerance. The closest point of a needle of a face, as it comes
@@ -79,7 +79,7 @@ TEST_CASE("the inclusion root finder reports no more than its tolerance for a sl
     options.instruction_set = kernel;
     const QueryResult result = scenes::ccd(query, options);
     INFO(oracle::to_text(options, result));
-    REQUIRE(result.outcome == Outcome::contact);
+    REQUIRE(result.outcome == PairOutcome::contact);
     CHECK(oracle::broken_promise(query, options, result, oracle::known(oracle::exact_ccd(query))) == "");
     CHECK(oracle::wrong_report(query, options, result) == "");
     CHECK(result.tolerance <= options.relative_tolerance * oracle::extent(query));
@@ -102,7 +102,7 @@ TEST_CASE("sliding and coplanar pairs are decided within a few thousand checks",
         const QueryResult result = scenes::ccd(query, options);
         INFO(family.name << " " << to_text(query) << " " << oracle::to_text(options, result));
         CHECK(oracle::broken_promise(query, options, result, oracle::known(oracle::exact_ccd(query))) == "");
-        ++queries, budget += result.outcome == Outcome::max_checks;
+        ++queries, budget += result.outcome == PairOutcome::max_checks;
       }
     }
   }

@@ -11,7 +11,7 @@ static void check(const Query& query, const Options& options, const oracle::Know
   if (judge_zero && options.norm == Norm::euclidean && oracle::silent_zero(query, options, result))
     broken = "a step of zero from a start that is apart";
   // Apart until toi: the exact distance at a few times before it, for all the time where it is free.
-  const double last = result.outcome == Outcome::free ? 1 : std::nextafter(result.toi, 0);
+  const double last = result.outcome == PairOutcome::free ? 1 : std::nextafter(result.toi, 0);
   for (double part : {0.0, 0.5, 0.9, 0.999, 1.0})
     if (broken.empty() && result.toi > 0 &&
         oracle::compare_distance(query, part * last, options.min_separation, options.norm) <= 0)
@@ -107,16 +107,16 @@ TEST_CASE("an oblique approach keeps the separation, a start within it is told b
     const Query to_below = oblique(0.011, 0.009, norm), through = oblique(0.012, 0, norm);
     for (const auto& [query, exact] : {std::pair(to_below, 0.5), std::pair(through, 1.0 / 6)}) {
       const QueryResult result = with_separation(query, norm);
-      CHECK(result.outcome == Outcome::contact);
+      CHECK(result.outcome == PairOutcome::contact);
       CHECK(result.toi <= exact + 1e-12);
       CHECK(result.toi >= exact - 1e-4);
       CHECK(oracle::compare_distance(query, result.toi, 0.01, norm) >= 0);
     }
-    CHECK(with_separation(oblique(0.011, 0.0101, norm), norm).outcome == Outcome::free);
+    CHECK(with_separation(oblique(0.011, 0.0101, norm), norm).outcome == PairOutcome::free);
     const QueryResult apart = with_separation(oblique(0.009, 0.011, norm), norm);
-    CHECK(apart.outcome == Outcome::initial_separating);
+    CHECK(apart.outcome == PairOutcome::initial_separating);
     const QueryResult pressing = with_separation(oblique(0.009, 0.005, norm), norm);
-    CHECK(pressing.outcome == Outcome::initial_contact);
+    CHECK(pressing.outcome == PairOutcome::initial_contact);
     CHECK(pressing.toi == 0);
   }
   const Query at_once = oblique(0.009, 0.0091, Norm::euclidean);  // 0.009 / sqrt 3 in the maximum norm
@@ -134,7 +134,8 @@ TEST_CASE("a separation larger than the scene is contact at once", "[unit][oracl
         const Query query = family.make(kind, random);
         const QueryResult result = scenes::ccd(query, options);
         const bool initial =
-            result.outcome == Outcome::initial_contact || result.outcome == Outcome::initial_separating;
+            result.outcome == PairOutcome::initial_contact ||
+            result.outcome == PairOutcome::initial_separating;
         CHECK(initial);
         CHECK(result.toi == 0);
       }

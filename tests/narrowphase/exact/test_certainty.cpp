@@ -61,7 +61,7 @@ TEST_CASE("exact: neither a miss nor a false positive, whatever the tolerance an
     INFO(oracle::to_text(options, r) << " exact: " << truth.toi_lo << " " << truth.toi_hi);
     CHECK(r.collides() == truth.collides);
     if (!r.collides()) return;
-    CHECK(r.outcome != Outcome::max_checks);
+    CHECK(r.outcome != PairOutcome::max_checks);
     CHECK(r.toi_hi == truth.toi_hi);
     CHECK(r.toi == truth.toi_lo);
     const bool at_start = truth.toi_hi == 0;

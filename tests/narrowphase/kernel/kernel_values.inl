@@ -41,7 +41,7 @@ void double_values(const KernelPairs& pairs, int row, const tests::ValuesWanted&
   left_part(f, V::all(in.u));
   for (int i = 0; i < 4; ++i) out.f[i] = first(f[i]);
   evaluate(c, V::all(in.u), V::all(in.v), point);
-  look(s, t, false, direction, dist);
+  closest_direction(s, t, false, direction, dist);
   for (int a = 0; a < 3; ++a) out.witness[a] = first(point[a]);
   out.unit = first(s.unit), out.rho = first(s.rho), out.distance = first(dist);
   out.f_error = first(s.f_error), out.n_largest = first(s.n_largest);

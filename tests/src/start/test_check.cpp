@@ -6,6 +6,7 @@
 #include "tests/oracle/distance.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/promises.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/support/crowds.hpp"
 #include "tests/src/support/mesh_pairs.hpp"
 
@@ -13,6 +14,7 @@ using namespace onset;
 using namespace onset::tests;
 using oracle::Rational;
 using scenes::Random;
+using scenes::set_rule;
 
 namespace {
 
@@ -103,7 +105,7 @@ TEST_CASE("pairs within the separation are those that come as close, in either n
     std::vector<double> thickness(std::size_t(crowd.mesh.num_vertices()), 0);
     if (round % 3 == 0)
       for (double& t : thickness) t = scenes::integer(random, 0, 2) / 32.0;
-    crowd.mesh.set_thickness(thickness);
+    set_rule(crowd.mesh, &CollisionRules::thickness, thickness);
     Options o;
     o.min_separation = scenes::integer(random, 1, 12) / 32.0;
     o.norm = round % 4 < 2 ? Norm::euclidean : Norm::maximum;
@@ -141,30 +143,30 @@ TEST_CASE("the copies of a seam are named, and either call that joins them makes
   const StartReport report = check(mesh, seam.x);
   CHECK(report.copied_vertices == std::vector<std::array<int, 2>>{{1, 3}, {2, 5}});
   CHECK(duplicate_vertices(seam.x) == report.copied_vertices);
-  CHECK(says(report, StartFault::copied_vertices, "mesh.set_weld(true)"));
+  CHECK(says(report, StartFault::copied_vertices, "rules.weld = true"));
   CHECK(says(report, StartFault::copied_vertices, "first vertices 1 and 3"));
-  CHECK(
-      says(report, StartFault::copied_vertices, "mesh.set_excluded_vertices(onset::duplicate_vertices(x))"));
+  CHECK(says(report, StartFault::copied_vertices,
+             "rules.excluded_vertices = onset::duplicate_vertices(x)"));
   CHECK_FALSE(
       (report.acceptable() || report.clean() || report.touching.empty() || report.intersections.empty()));
-  mesh.set_weld(true);
+  set_rule(mesh, &CollisionRules::weld, true);
   CHECK(check(mesh, seam.x).clean());
-  mesh.set_weld(false);
-  mesh.set_excluded_vertices(duplicate_vertices(seam.x));
+  set_rule(mesh, &CollisionRules::weld, false);
+  set_rule(mesh, &CollisionRules::excluded_vertices, duplicate_vertices(seam.x));
   CHECK(check(mesh, seam.x).clean());
-  mesh.set_excluded_vertices({});
-  mesh.set_rigid({true});
+  set_rule(mesh, &CollisionRules::excluded_vertices, {});
+  set_rule(mesh, &CollisionRules::rigid_bodies, {true});
   CHECK(check(mesh, seam.x).clean());
-  mesh.set_rigid({false});
-  mesh.set_static(std::vector<bool>(6, true));
+  set_rule(mesh, &CollisionRules::rigid_bodies, {});
+  set_rule(mesh, &CollisionRules::static_vertices, std::vector<bool>(6, true));
   CHECK(check(mesh, seam.x).clean());
-  mesh.set_static({false, true, true, true, false, true});  // the copies alone
+  set_rule(mesh, &CollisionRules::static_vertices, {false, true, true, true, false, true});  // the copies
   CHECK(check(mesh, seam.x).copied_vertices.size() == 2);
-  mesh.set_static(std::vector<bool>(6));
-  mesh.set_bodies(mesh.components());
-  mesh.set_excluded_bodies({{0, 1}});
+  set_rule(mesh, &CollisionRules::static_vertices, std::vector<bool>(6));
+  set_rule(mesh, &CollisionRules::bodies, mesh.components());
+  set_rule(mesh, &CollisionRules::excluded_bodies, {{0, 1}});
   CHECK(check(mesh, seam.x).clean());
-  mesh.set_excluded_bodies({});
+  set_rule(mesh, &CollisionRules::excluded_bodies, {});
   CHECK(check(mesh, seam.x).copied_vertices.size() == 2);
 }
 
@@ -182,10 +184,10 @@ TEST_CASE("all copies at one place count as one vertex, however many", "[unit]")
   CHECK(pairs.size() == 10);
   CHECK(std::is_sorted(pairs.begin(), pairs.end()));
   CHECK(check(mesh, x).copied_vertices == std::vector<std::array<int, 2>>{{0, 3}, {0, 6}, {0, 9}, {0, 12}});
-  mesh.set_excluded_vertices({{0, 3}, {0, 6}, {0, 9}});
+  set_rule(mesh, &CollisionRules::excluded_vertices, {{0, 3}, {0, 6}, {0, 9}});
   CHECK(check(mesh, x).copied_vertices == std::vector<std::array<int, 2>>{{0, 12}, {3, 6}, {3, 9}});
   CHECK_FALSE(check(mesh, x).acceptable());
-  mesh.set_excluded_vertices(pairs);
+  set_rule(mesh, &CollisionRules::excluded_vertices, pairs);
   CHECK(check(mesh, x).clean());
 }
 
@@ -221,19 +223,19 @@ TEST_CASE("a pierced start, faces without area and vertices of nothing are named
          pierced.faces_without_area == std::vector<int>{1}));
   CHECK(says(pierced, StartFault::intersecting,
              "edge 0 (vertices 3 and 4) and face 0 (vertices 0, 1 and 2), crossing"));
-  CHECK(says(pierced, StartFault::intersecting, "mesh.set_excluded_intersections(report.intersections)"));
+  CHECK(says(pierced, StartFault::intersecting, "rules.excluded_intersections = report.intersections"));
   CHECK(says(pierced, StartFault::faces_without_area, "first face 1 (vertices 5, 6 and 7)"));
   CHECK((pierced.findings.size() == 2 && !pierced.acceptable() && !pierced.clean()));
   Mesh accepted(x, E, F);
-  accepted.set_excluded_intersections(pierced.intersections);
+  set_rule(accepted, &CollisionRules::excluded_intersections, pierced.intersections);
   CHECK((check(accepted, x).intersections.empty() && !has_intersections(accepted, x)));
 
   Mesh loose(x, Eigen::MatrixXi(wire), Eigen::MatrixXi(0, 3));
   const StartReport unused = check(loose, x);
   CHECK(unused.unused_vertices == std::vector<int>{0, 1, 2, 5, 6, 7});
-  CHECK(says(unused, StartFault::unused_vertices, "mesh.set_points(report.unused_vertices)"));
+  CHECK(says(unused, StartFault::unused_vertices, "rules.points = report.unused_vertices"));
   CHECK((unused.acceptable() && !unused.clean()));
-  loose.set_points(unused.unused_vertices);
+  set_rule(loose, &CollisionRules::points, unused.unused_vertices);
   CHECK(check(loose, x).clean());
 }
 
@@ -245,10 +247,10 @@ TEST_CASE("pairs that are found can be left out, by every call", "[property]") {
     o.min_separation = 0.25;
     const StartReport report = check(crowd.mesh, crowd.x, o);
     REQUIRE((!report.touching.empty() && !report.within_separation.empty()));
-    CHECK(says(report, StartFault::touching, "mesh.set_excluded_pairs(report.touching)"));
+    CHECK(says(report, StartFault::touching, "rules.excluded_pairs = report.touching"));
     CHECK(says(report, StartFault::within_separation, "Options::min_separation"));
     const FilterCounts before = crowd.mesh.filter_counts();
-    crowd.mesh.set_excluded_pairs(report.touching);
+    set_rule(crowd.mesh, &CollisionRules::excluded_pairs, report.touching);
     StartReport rest = check(crowd.mesh, crowd.x, o);
     CHECK((rest.touching.empty() && rest.within_separation.size() == report.within_separation.size()));
     const FilterCounts& plan = crowd.mesh.filter_counts();
@@ -257,14 +259,15 @@ TEST_CASE("pairs that are found can be left out, by every call", "[property]") {
           before.vertex_face.may_meet() + before.edge_edge.may_meet() - std::int64_t(report.touching.size()));
     std::vector<Pair> all(report.within_separation.begin(), report.within_separation.end());
     all.insert(all.end(), report.touching.rbegin(), report.touching.rend());
-    crowd.mesh.set_excluded_pairs(all);
+    set_rule(crowd.mesh, &CollisionRules::excluded_pairs, all);
     rest = check(crowd.mesh, crowd.x, o);
     CHECK((rest.touching.empty() && rest.within_separation.empty()));
     CHECK(compute_collision_free_stepsize(crowd.mesh, crowd.x, crowd.x, o).outcome == Outcome::free);
     CHECK(construct_active_set(crowd.mesh, crowd.x, crowd.x, o).size() == 0);
     for (const ClosePair& p : close_pairs(crowd.mesh, crowd.x, 0.5, o))
       for (const Pair& q : all) CHECK_FALSE((p.kind == q.kind && p.a == q.a && p.b == q.b));
-    crowd.mesh.set_excluded_pairs({report.within_separation.begin(), report.within_separation.end()});
+    set_rule(crowd.mesh, &CollisionRules::excluded_pairs,
+             {report.within_separation.begin(), report.within_separation.end()});
     CHECK(check(crowd.mesh, crowd.x, o).touching.size() == report.touching.size());
   }
 }

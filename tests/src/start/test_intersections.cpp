@@ -8,12 +8,15 @@
 #include "base/instruction_set.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/promises.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/start/brute_intersections.hpp"
 #include "tests/src/support/crowds.hpp"
 
 using namespace onset;
 using namespace onset::tests;
 using scenes::Random;
+using scenes::change_rules;
+using scenes::set_rule;
 
 namespace {
 
@@ -80,7 +83,7 @@ TEST_CASE("an intersection names its vertices, and its kind by one of three word
   CHECK((without.begin()->edge == 0 && without.begin()->face == 0));
   CHECK(without.begin()->vertices == std::array<int, 5>{3, 4, 0, 1, 2});
   CHECK(without.count(IntersectionKind::crossing) == 1);
-  mesh.set_points({6, 5});
+  set_rule(mesh, &CollisionRules::points, {6, 5});
   const Intersections with = intersections(mesh, x);
   REQUIRE(with.size() == 2);
   CHECK((with.pairs[1].edge == 5 && with.pairs[1].kind == IntersectionKind::touching));
@@ -108,19 +111,21 @@ TEST_CASE("intersections keep to the rules of the mesh", "[oracle][property]") {
     const auto body_of_edge = [&](int e) { return body[std::size_t(crowd.mesh.edge(e)[0])]; };
     const auto body_of_face = [&](int f) { return body[std::size_t(crowd.mesh.face(f)[0])]; };
     Mesh mesh = crowd.mesh;
-    mesh.set_bodies(body);
+    set_rule(mesh, &CollisionRules::bodies, body);
     std::vector<bool> odd(std::size_t(mesh.num_bodies()));
     for (std::size_t b = 1; b < odd.size(); b += 2) odd[b] = true;
-    mesh.set_static(mesh.of_bodies(odd));
+    set_rule(mesh, &CollisionRules::static_vertices, mesh.of_bodies(odd));
     check(mesh, [&](int e, int f) {
       return !odd[std::size_t(body_of_edge(e))] || !odd[std::size_t(body_of_face(f))];
     });
-    mesh = crowd.mesh, mesh.set_bodies(body), mesh.set_rigid(odd);
+    mesh = crowd.mesh;
+    change_rules(mesh, [&](CollisionRules& r) { r.rigid_bodies = odd, r.bodies = body; });
     check(mesh, [&](int e, int f) {
       return body_of_edge(e) != body_of_face(f) || !odd[std::size_t(body_of_edge(e))];
     });
     if (mesh.num_bodies() > 1) {
-      mesh = crowd.mesh, mesh.set_bodies(body), mesh.set_excluded_bodies({{0, 1}});
+      mesh = crowd.mesh;
+      change_rules(mesh, [&](CollisionRules& r) { r.excluded_bodies = {{0, 1}}, r.bodies = body; });
       check(mesh, [&](int e, int f) {
         return body_of_edge(e) + body_of_face(f) != 1 || body_of_edge(e) == body_of_face(f);
       });
@@ -128,7 +133,8 @@ TEST_CASE("intersections keep to the rules of the mesh", "[oracle][property]") {
     std::vector<Intersection> named;
     for (std::size_t i = 0; i < all.size(); i += 2)
       named.push_back({all[i].edge, all[i].face, all[i].kind, {}});
-    mesh = crowd.mesh, mesh.set_excluded_intersections(named);
+    mesh = crowd.mesh;
+    set_rule(mesh, &CollisionRules::excluded_intersections, named);
     std::size_t i = 0;
     check(mesh, [&](int, int) { return i++ % 2 == 1; });
   }
@@ -141,8 +147,10 @@ TEST_CASE("an edge may meet a face and neither its edges nor its vertices", "[un
   x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1, 1, 1;
   const Eigen::MatrixXi wire = Eigen::RowVector2i(3, 4), F = Eigen::RowVector3i(0, 1, 2);
   Mesh mesh(5, complete_edges(wire, F), F);
-  mesh.set_groups({1, 0, 0, 1, 0}, {0, 1, 0, 0, 1});
-  mesh.set_static({true, true, false, true, true});
+  CollisionRules rules;
+  rules.groups = {1, 0, 0, 1, 0}, rules.masks = {0, 1, 0, 0, 1};
+  rules.static_vertices = {true, true, false, true, true};
+  mesh.set_rules(rules);
   CHECK((mesh.filter_counts().edge_edge.may_meet() == 0 && mesh.filter_counts().vertex_face.may_meet() == 0));
   for (const Options& o : all_ways()) {
     CHECK(intersections(mesh, x, o).count(IntersectionKind::crossing) == 1);
@@ -156,8 +164,8 @@ TEST_CASE("with welds, vertices at one place count as one", "[oracle][property]"
   for (int round = 0; round < std::max(6, oracle::fuzz(12)); ++round) {
     const Crowd crowd = some_crowd(round, random);
     Mesh welded = crowd.mesh, named = crowd.mesh;
-    welded.set_weld(true);
-    named.set_excluded_vertices(duplicate_vertices(crowd.x));
+    set_rule(welded, &CollisionRules::weld, true);
+    set_rule(named, &CollisionRules::excluded_vertices, duplicate_vertices(crowd.x));
     const std::vector<Found> expected = brute_intersections(crowd.mesh, crowd.x, [&](int e, int f) {
       for (const int v : crowd.mesh.edge(e))
         for (const int w : crowd.mesh.face(f))

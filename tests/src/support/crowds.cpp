@@ -42,11 +42,9 @@ Crowd grid_crowd(int count, int size, Random& random) {
   for (int f = 0; f < count; ++f)  // some share a vertex with the one before
     faces.row(f) << (f > 0 && scenes::coin(random) ? 3 * f - 1 : 3 * f), 3 * f + 1, 3 * f + 2;
   for (int e = 0; e < wires; ++e) edges.row(e) << 3 * count + 2 * e, 3 * count + 2 * e + 1;
-  Mesh mesh(vertices, complete_edges(edges, faces), faces);
-  std::vector<int> ids;
-  for (int v = vertices - points; v < vertices; ++v) ids.push_back(v);
-  mesh.set_points(ids);
-  return {"grid", std::move(mesh), std::move(x)};
+  CollisionRules rules;
+  for (int v = vertices - points; v < vertices; ++v) rules.points.push_back(v);
+  return {"grid", Mesh(vertices, complete_edges(edges, faces), faces, rules), std::move(x)};
 }
 
 Crowd some_crowd(int round, Random& random) {

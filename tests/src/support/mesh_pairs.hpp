@@ -38,12 +38,12 @@ inline std::size_t row_of(const ActiveSet& set, const Key& pair) {
   std::size_t first = 0, last = set.size();
   while (first < last) {
     const std::size_t middle = (first + last) / 2;
-    if (Key{set.kind[middle], set.a[middle], set.b[middle]} < pair)
+    if (Key{set[middle].kind, set[middle].a, set[middle].b} < pair)
       first = middle + 1;
     else
       last = middle;
   }
-  const bool found = first < set.size() && !(pair < Key{set.kind[first], set.a[first], set.b[first]});
+  const bool found = first < set.size() && !(pair < Key{set[first].kind, set[first].a, set[first].b});
   return found ? first : set.size();
 }
 
