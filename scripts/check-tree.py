@@ -3,8 +3,8 @@
 
     scripts/check-tree.py [ROOT]
 
-- Every folder with sources has its sentence in the table of folders, and every folder of that table is there, as is every file that the page
-  names by its path.
+- Every folder with sources has its sentence in the table of folders, and every folder of that table is there. So is every file that a page
+  names by its path from the root.
 - No folder holds more than 18 files, beside its CMakeLists.txt. No C++ file is longer than 400 lines.
 - Every include goes down or stays in its room, as the table of who may include whom says. TBB and intrinsics have one place each.
 - Words that have been replaced do not come back.
@@ -90,11 +90,12 @@ def check_folders(document, files):
             yield f"docs/architecture.md: {folder} has no sentence"
 
 
-def check_paths(root, document):
-    named = {path for line in document.splitlines() if not line.startswith("```") for path in quoted(line)}
+def check_paths(root, page):
+    lines = (root / page).read_text().splitlines()
+    named = {path for line in lines if not line.startswith("```") for path in quoted(line)}
     for path in sorted(named):
         if re.fullmatch(rf"({'|'.join(TOPS)})/[\w./*-]+\.[\w*]+", path) and not any(root.glob(path)):
-            yield f"docs/architecture.md: {path} is not there"
+            yield f"{page}: {path} is not there"
 
 
 def check_length(path, text):
@@ -152,7 +153,8 @@ def complaints(root):
     rules = {who: tuple(quoted(rooms)) for names, rooms, *_ in table(document, "Who may include whom") for who in quoted(names)}
     files = list(sources(root))
     yield from check_folders(document, files)
-    yield from check_paths(root, document)
+    for page in ["README.md", "CONTRIBUTING.md", *sorted(path.relative_to(root).as_posix() for path in root.glob("docs/*.md"))]:
+        yield from check_paths(root, page)
     for path in files:
         text = (root / path).read_text()
         if path == "scripts/check-tree.py":
