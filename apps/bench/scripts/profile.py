@@ -27,7 +27,7 @@ STAGES = {
     "advancement": r"(avx2|scalar)::.*(advance|set_cubic|gather|direction|maximum_norm)",
     "boxes and tree":
         r"fit_|BoxTree|order_|_order|hilbert|make_supports|make_motion|finish_motion|motion_box|FloatMap|sort_range|Keyed|roughness|"
-        r"largest_swept|[Ee]xtents|Scene::|StaticTrees|StaticMotion|count_filtered|make_keys",
+        r"largest_swept|[Ee]xtents|StepSetup::|StaticTrees|StaticMotion|count_filtered|make_keys",
     "traversal and box tests": r"bvh_(avx2|scalar)::|make_bvh|Bvh|may_meet|share_vertex|boxes_overlap|excluded|pair_vertices|PairBatch",
     "kernel, copies, allocation": r"\[k\]|allocate|mem(move|cpy|set)|malloc|free$|_int_|operator new|operator delete|_M_(default_append|realloc)",
     "other": "",
