@@ -157,8 +157,8 @@ def complaints(root):
         yield from check_paths(root, page)
     for path in files:
         text = (root / path).read_text()
-        if path == "scripts/check-tree.py":
-            continue
+        if path in ("scripts/check-tree.py", "tests/scripts/test_check_tree.py"):
+            continue  # they name the old words
         yield from check_words(path, text)
         if path.endswith(tuple(CPP)):
             yield from check_length(path, text)

@@ -173,7 +173,8 @@ def draw_step(d, scenes, y):
             d.line([(x + width, y + 31), (x + width + gap, y + 31)])
     middle = [MARGIN + k * (width + gap) + width / 2 for k in range(len(LOOP))]
     d.line([(middle[3], y + 62), (middle[3], y + 84), (middle[1], y + 84), (middle[1], y + 62)])
-    d.text((middle[1] + middle[3]) / 2, y + 98, "each contact found lowers t_max; boxes stay, and pairs that are certified beyond it are dropped", 10, FAINT, "middle")
+    d.text((middle[1] + middle[3]) / 2, y + 98, "each contact found lowers t_max; boxes stay, and pairs that are certified beyond it are dropped",
+           10, FAINT, "middle")
     y += 126
     rows = [("candidates of the whole step", lambda s: f"{s.whole:,}"),
             ("candidates of the second traversal", lambda s: f"{s.second:,} ({share(s.second, s.whole)})" if s.second < s.whole
