@@ -17,17 +17,17 @@ import time
 from onset_server import Onset, scene_frames, scene_parser
 
 STAGES = {
-    "order of the contacts": r"FoundPair|Pass::(take|merge)|radix_sort|Place",
-    "contact points and normals": r"contact_frame|frames_|fill_(frames|rows?)|closest_points|make_corners|Corners::|construct_active_set",
+    "order of the contacts": r"FoundPair|PairTraversal::(take|merge)|radix_sort|Place",
+    "contact points and normals": r"contact_geometr|fill_(geometry|contacts)|closest_points|make_corners|Corners::|construct_active_set",
     "certificates of contact, exact decisions, root finder":
         r"touched_by|certif|[Ee]xact|CubicSign|Wide<|Integer|roots|completely|complete_first|sharpen|initial|find_parting|inclusion|"
         r"[Ss]earch|Interval|on_grid|bracket_of|scalbn|ilogb|"
-        r"NarrowPhase::(settle|finish|report|push_on|corners_of|seen|note)|PairResult",
-    "culls": r"cull|round_(positions|row)|NarrowPhase::(look_up|process|prepare)",
-    "advancement": r"(avx2|scalar)::.*(advance|look<|set_cubic|gather|direction)",
+        r"NarrowPhase::sharpen|PairDecision::|PairResult",
+    "culls": r"cull|round_(positions|row)|NarrowPhase::(gather|process|prepare)",
+    "advancement": r"(avx2|scalar)::.*(advance|set_cubic|gather|direction|maximum_norm)",
     "boxes and tree":
         r"fit_|BoxTree|order_|_order|hilbert|make_supports|make_motion|finish_motion|motion_box|FloatMap|sort_range|Keyed|roughness|"
-        r"largest_swept|[Ee]xtents|Scene::|StaticTrees|StaticMotion|census|make_keys",
+        r"largest_swept|[Ee]xtents|StepSetup::|StaticTrees|StaticMotion|count_filtered|make_keys",
     "traversal and box tests": r"bvh_(avx2|scalar)::|make_bvh|Bvh|may_meet|share_vertex|boxes_overlap|excluded|pair_vertices|PairBatch",
     "kernel, copies, allocation": r"\[k\]|allocate|mem(move|cpy|set)|malloc|free$|_int_|operator new|operator delete|_M_(default_append|realloc)",
     "other": "",
