@@ -11,7 +11,7 @@
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
-#include "src/shared/step_of_pairs.hpp"
+#include "src/shared/pair_list.hpp"
 #include "src/start/places.hpp"
 
 namespace onset {

@@ -9,7 +9,7 @@
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/find_contacts.hpp"
-#include "src/shared/step_of_pairs.hpp"
+#include "src/shared/pair_list.hpp"
 
 namespace onset {
 namespace {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <onset/export.hpp>
-#include <onset/intersection.hpp>
 #include <onset/result.hpp>
 #include <vector>
 

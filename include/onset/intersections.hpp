@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <onset/export.hpp>
-#include <onset/intersection.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/result.hpp>

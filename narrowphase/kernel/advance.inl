@@ -14,7 +14,7 @@ inline void closest_direction(const State<V, K>& s, V t, bool maximum_norm, V (&
     for (int a = 0; a < 3; ++a) c[k][a] = lerp(s.c[0][k][a], s.c[1][k][a], t);
   spanning_edges(c, e1, e2);
   if (maximum_norm) {
-    shortest = look_in_maximum_norm(c, e1, e2, w);
+    shortest = closest_direction_in_maximum_norm(c, e1, e2, w);
   } else {
     const Nearest<V> nearest = nearest_on_boundary(c);
     best_direction(c, nearest, e1, e2, w);

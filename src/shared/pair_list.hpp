@@ -5,6 +5,9 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "onset/mesh.hpp"
+#include "onset/step_size.hpp"
+#include "scene/motion/motion.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/budget.hpp"
 
@@ -34,5 +37,10 @@ struct CulledList {
 // One traversal of `broad` for all lists; each has its pairs in the order of ids. No more than `most` in all, or none: then
 // returns false. Ends early where the budget is spent.
 bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most, Budget& budget);
+
+// The largest step of these pairs, in [0, upper], each keeping the share `gap_share` of its gap, stored in doubles, and the statistics. A motion
+// that cannot be used is an outcome.
+StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs, const Options& options,
+                   double gap_share, Budget& budget, double upper = 1);
 
 }  // namespace onset

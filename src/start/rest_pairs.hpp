@@ -3,7 +3,7 @@
 
 #include "onset/close_pairs.hpp"
 #include "onset/intersections.hpp"
-#include "src/shared/gather.hpp"
+#include "src/shared/visit_pairs.hpp"
 #include "src/start/rest.hpp"
 
 namespace onset {

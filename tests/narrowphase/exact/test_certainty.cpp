@@ -1,4 +1,4 @@
-// What Options::certainty promises about single queries, against the rational oracle.
+// What Options::exactness promises about single queries, against the rational oracle.
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact/exact_query.hpp"
 #include "tests/oracle/promises.hpp"
