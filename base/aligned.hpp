@@ -5,6 +5,8 @@
 #include <memory>
 #include <new>
 
+#include "base/assert.hpp"
+
 namespace onset {
 
 template <class T>
@@ -16,8 +18,14 @@ class AlignedArray {
   T* data() { return data_.get(); }
   const T* data() const { return data_.get(); }
   std::size_t size() const { return size_; }
-  T& operator[](std::size_t i) { return data_.get()[i]; }
-  const T& operator[](std::size_t i) const { return data_.get()[i]; }
+  T& operator[](std::size_t i) {
+    ONSET_ASSERT(i < size_);
+    return data_.get()[i];
+  }
+  const T& operator[](std::size_t i) const {
+    ONSET_ASSERT(i < size_);
+    return data_.get()[i];
+  }
 
  private:
   struct Free {

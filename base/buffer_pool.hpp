@@ -7,6 +7,8 @@
 #include <mutex>
 #include <utility>
 
+#include "base/assert.hpp"
+
 namespace onset {
 
 // Each slot holds at most one object that nobody uses: who takes it has it alone. T may be incomplete here.
@@ -14,10 +16,12 @@ template <class T, std::size_t kSlots>
 class BufferPool {
  public:
   std::shared_ptr<T> take(std::size_t slot) {
+    ONSET_ASSERT(slot < kSlots);
     const std::lock_guard<std::mutex> lock(mutex_);
     return std::exchange(slots_[slot], nullptr);
   }
   void give_back(std::size_t slot, std::shared_ptr<T> object) {
+    ONSET_ASSERT(slot < kSlots);
     const std::lock_guard<std::mutex> lock(mutex_);
     slots_[slot].swap(object);  // the old one goes after the lock
   }
@@ -35,10 +39,12 @@ template <class T, std::size_t kSlots = 1>
 class SharedCache {
  public:
   std::shared_ptr<const T> get(std::size_t slot = 0) const {
+    ONSET_ASSERT(slot < kSlots);
     const std::lock_guard<std::mutex> lock(mutex_);
     return slots_[slot];
   }
   void put(std::shared_ptr<const T> object, std::size_t slot = 0) {
+    ONSET_ASSERT(slot < kSlots);
     const std::lock_guard<std::mutex> lock(mutex_);
     slots_[slot].swap(object);  // the old one goes after the lock
   }

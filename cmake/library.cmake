@@ -8,6 +8,7 @@ set_target_properties(onset PROPERTIES
   VERSION ${PROJECT_VERSION}
   SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # 0.x: every minor version may break the ABI
 target_compile_features(onset PUBLIC cxx_std_17)
+target_compile_definitions(onset PRIVATE $<$<OR:$<CONFIG:Debug>,$<BOOL:${ONSET_ASSERTS}>>:ONSET_ASSERTS>)
 target_include_directories(onset PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                  PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE TBB::tbb $<BUILD_INTERFACE:Boost::boost>)

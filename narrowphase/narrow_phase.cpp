@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/assert.hpp"
 #include "narrowphase/kernel/kernels.hpp"
 #include "narrowphase/pair_decision.hpp"
 #include "scene/motion/storing.hpp"
@@ -37,6 +38,7 @@ void NarrowPhaseStats::add(const NarrowPhaseStats& o) {
 }
 
 void NarrowPhaseStats::note_checks(IdPair pair, std::int64_t n) {
+  ONSET_ASSERT(n >= 0);
   const int power = 63 - __builtin_clzll(static_cast<unsigned long long>(n) | 1);
   ++histogram[std::size_t(std::min(power, 15))];
   if (n < most_checks || n == 0) return;
@@ -126,8 +128,10 @@ void NarrowPhase::cull(PairKind kind, const IdPair* pairs, std::size_t count, Na
 void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                           NarrowPhaseScratch& scratch, std::vector<PairResult>& out) const {
   if (count == 0) return;
+  ONSET_ASSERT(count <= kBatchSize);
   const KernelPairs input = prepare(kind, pairs, count, t_max, scratch);
   const int survivors = cull(kind, input, scratch);
+  ONSET_ASSERT(survivors >= 0 && survivors <= input.count);
   scratch.results.resize(std::size_t(survivors));
   const KernelsOfKind& kernels = kernels_->of_kind[int(kind)];
   kernels.advance(input, scratch.survivors.data(), survivors, nullptr, scratch.results.data());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "narrowphase/inclusion.hpp"
 #include "narrowphase/interval_certificate.hpp"
 
@@ -29,6 +30,7 @@ void PairDecision::advance(const KernelResume* resume, KernelResult& result) con
 }
 
 std::optional<PairResult> PairDecision::contact(const KernelResult& checked, double from) {
+  ONSET_ASSERT(from >= 0 && from <= 1 && checked.t >= from);
   KernelResult found = checked;
   Bounds start{};
   if (found.verdict == Verdict::initial) {
@@ -72,6 +74,7 @@ KernelResult PairDecision::push_on(KernelResult r) const {
       r.verdict = Verdict::max_checks;
       return r;
     }
+    ONSET_ASSERT(t >= r.t);
     patient = t == r.t;
     const KernelResume resume{t, r.separation, r.delta, r.checks, patient ? kPatience : 0};
     advance(&resume, r);
@@ -107,6 +110,7 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
   const bool later =
       real && exact.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
   if (later) found.t = exact.time.lo;
+  ONSET_ASSERT(found.t >= 0 && found.t <= 1);
   // These moved on after their last look; where the inclusion root finder did, it has a bound of its own,
   // which is the sharper one for slivers.
   if (later)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "narrowphase/pair_decision.hpp"
 #include "scene/motion/motion.hpp"
 #include "scene/motion/storing.hpp"
@@ -89,6 +90,7 @@ std::optional<PairResult> PairDecision::stored_step(const KernelResult& checked)
     r.tolerance = std::max(0.0, (distance_at(found.t) - separation() / found.unit) * found.unit);
   r.stored_limit = std::min(free ? INFINITY : found.t, r.step_limit);
   r.clear_from = limit.from;
+  ONSET_ASSERT(r.stored_limit >= 0 && r.clear_from >= 0);
   return r;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/assert.hpp"
 #include "scene/mesh_data.hpp"
 #include "scene/pair_sink.hpp"
 
@@ -11,10 +12,13 @@ namespace onset {
 
 // The vertices of a pair's first and second side.
 inline void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) {
+  ONSET_ASSERT(p.a >= 0 && p.b >= 0);
   if (kind == PairKind::vertex_face) {
+    ONSET_ASSERT(p.a < mesh.num_vertices && std::size_t(p.b) < mesh.faces.size());
     const auto& f = mesh.faces[std::size_t(p.b)];
     v[0] = p.a, v[1] = f[0], v[2] = f[1], v[3] = f[2];
   } else {
+    ONSET_ASSERT(std::size_t(p.a) < mesh.edges.size() && std::size_t(p.b) < mesh.edges.size());
     std::copy_n(mesh.edges[std::size_t(p.a)].data(), 2, v);
     std::copy_n(mesh.edges[std::size_t(p.b)].data(), 2, v + 2);
   }
@@ -44,6 +48,7 @@ class PairBatch {
   PairBatch& operator=(const PairBatch&) = delete;
 
   void add(int a, int b) {
+    ONSET_ASSERT(count_ < kBatchSize && a >= 0 && b >= 0);
     pairs_[count_++] = {a, b};
     if (count_ == kBatchSize) flush();
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/assert.hpp"
 #include "onset/result.hpp"
 #include "scene/mesh_data.hpp"
 
@@ -26,6 +27,7 @@ inline std::size_t primitive_count(const MeshData& mesh, Primitive kind) {
 
 // Vertex ids of a primitive; unused places repeat the first.
 inline std::array<int, 3> primitive_vertices(const MeshData& mesh, Primitive kind, int id) {
+  ONSET_ASSERT(id >= 0 && std::size_t(id) < primitive_count(mesh, kind));
   switch (kind) {
     case Primitive::edge: {
       const auto& e = mesh.edges[std::size_t(id)];

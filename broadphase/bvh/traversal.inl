@@ -1,6 +1,7 @@
 // Kernel text: the traversal of two trees.
 #pragma once
 
+#include "base/assert.hpp"
 #include "broadphase/bvh/box_overlap.inl"
 
 namespace onset {
@@ -16,6 +17,7 @@ struct Pairs {
 
   bool full() const { return count > kCapacity - kLanes; }
   void add(I8 as, I8 bs, int lanes) {
+    ONSET_ASSERT(count <= kCapacity);
     as.store(a + count), bs.store(b + count);
     count += count_lanes(lanes);
   }

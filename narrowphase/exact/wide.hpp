@@ -5,17 +5,29 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "base/assert.hpp"
+
 namespace onset {
 
 __extension__ using Int128 = __int128;
 __extension__ using UInt128 = unsigned __int128;
 
-// Arithmetic is modulo 2^(64 N): whoever computes knows how large results can get and chooses N.
+// Arithmetic is modulo 2^(64 N): whoever computes knows how large results can get and chooses N. Asserts tell where a sum, a
+// difference or a product is larger than that.
 template <int N>
 struct Wide {
   std::uint64_t limb[N];  // lowest first
 
   Wide() = default;
+  bool negative() const { return limb[N - 1] >> 63; }
+  // The magnitude is below 2^bits().
+  int bits() const {
+    const std::uint64_t sign = negative() ? ~std::uint64_t(0) : 0;
+    int top = N - 1;
+    while (top > 0 && limb[top] == sign) --top;
+    const std::uint64_t rest = limb[top] ^ sign;
+    return 64 * top + (rest == 0 ? 0 : 64 - __builtin_clzll(rest)) + (negative() ? 1 : 0);
+  }
   Wide(std::int64_t x) {  // NOLINT: implicit, as between the built-in integers
     limb[0] = std::uint64_t(x);
     for (int i = 1; i < N; ++i) limb[i] = x < 0 ? ~std::uint64_t(0) : 0;
@@ -39,6 +51,7 @@ struct Wide {
       r.limb[i] = std::uint64_t(sum);
       sum >>= 64;
     }
+    ONSET_ASSERT(a.negative() != b.negative() || a.negative() == r.negative());
     return r;
   }
   friend Wide operator-(const Wide& a) {
@@ -59,9 +72,11 @@ struct Wide {
       r.limb[i] = std::uint64_t(sum);
       sum >>= 64;
     }
+    ONSET_ASSERT(a.negative() == b.negative() || a.negative() == r.negative());
     return r;
   }
   friend Wide operator*(const Wide& a, const Wide& b) {
+    ONSET_ASSERT(a.bits() + b.bits() <= 64 * N);
     if constexpr (N >= 6) return long_product(a, b);
     Wide r(0);
     for (int i = 0; i < N; ++i) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "base/assert.hpp"
 #include "base/aligned.hpp"
 #include "onset/result.hpp"
 #include "onset/views.hpp"
@@ -32,8 +33,11 @@ struct Motion {
   std::shared_ptr<const StaticMotion>
       static_part;  // null where no static primitive takes part, or status is not free
 
-  const double* t0(int v) const { return x.data() + std::size_t(v) * kMotionStride; }
-  const double* t1(int v) const { return x.data() + std::size_t(v) * kMotionStride + 4; }
+  const double* t0(int v) const {
+    ONSET_ASSERT(v >= 0 && v < num_vertices);
+    return x.data() + std::size_t(v) * kMotionStride;
+  }
+  const double* t1(int v) const { return t0(v) + 4; }
 };
 
 // Throws std::invalid_argument when a row count differs from num_vertices or there are not 3 columns.

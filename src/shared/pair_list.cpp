@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/assert.hpp"
 #include "base/clock.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
@@ -24,6 +25,7 @@ constexpr std::size_t kBlocksATask = 16;
 std::size_t PairList::blocks(PairKind kind) const { return (of(kind).size() + kBatchSize - 1) / kBatchSize; }
 
 void PairList::traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const {
+  ONSET_ASSERT(last <= blocks(kind));
   for (std::size_t block = first; block < last; ++block) {
     const std::size_t begin = block * kBatchSize, end = std::min(begin + kBatchSize, of(kind).size());
     sink(of(kind).data() + begin, end - begin);

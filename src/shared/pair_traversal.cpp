@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/assert.hpp"
 #include "base/parallel.hpp"
 #include "base/radix_sort.hpp"
 #include "broadphase/motion_box.hpp"
@@ -43,6 +44,7 @@ std::vector<FoundPair> sorted(const std::vector<Part>& parts, std::size_t count)
     std::sort(places.begin(), places.end(), [](const Place& x, const Place& y) { return x.order < y.order; });
   else
     radix_sort(places, [](const Place& p) { return p.order; });
+  ONSET_ASSERT(places.size() == count);
   std::vector<FoundPair> r;
   r.reserve(count);
   for (const Place& p : places) r.push_back({kind_of(p.order), *p.result});
@@ -107,6 +109,7 @@ class PairTraversal {
         task.process(pairs + i, std::min(step, count - i));
     }
     void process(const IdPair* pairs, std::size_t count) {
+      ONSET_ASSERT(count <= kBatchSize);
       const std::size_t known = results.size();
       traversal.narrow_.process(kind, pairs, count, {traversal.first_t_max_, traversal.t_max()}, scratch, results);
       if (traversal.bounds_.whole != nullptr) keep_candidates_of(*traversal.bounds_.whole, known);
@@ -152,6 +155,7 @@ class PairTraversal {
   }
   // t_max is only ever an early-out: results do not depend on it.
   void shrink_to(double limit) {
+    ONSET_ASSERT(limit >= 0);
     double now = t_max_.load(std::memory_order_relaxed);
     while (limit < now && !t_max_.compare_exchange_weak(now, limit, std::memory_order_relaxed)) {
     }
