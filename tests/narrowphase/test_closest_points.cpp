@@ -1,6 +1,7 @@
 // Closest points, their direction and the certified bounds of the distance, against exact arithmetic.
 //
 // ONSET_FUZZ=1000 for a long run, ONSET_SEED=n for other pairs.
+#include "base/unit_roundoff.hpp"
 #include "narrowphase/distance/closest_points.hpp"
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
@@ -16,8 +17,6 @@ using scenes::Query;
 using scenes::Random;
 
 namespace {
-
-constexpr double kU = 0x1p-53;
 
 std::uint64_t seed() {
   const char* text = std::getenv("ONSET_SEED");

@@ -11,6 +11,7 @@
 #include "tests/oracle/distance.hpp"
 #include "tests/queries/random_query.hpp"
 #include "tests/scenes/families.hpp"
+#include "tests/src/support/one_pair.hpp"
 
 using namespace onset;
 using oracle::cross;
@@ -31,18 +32,6 @@ std::array<Exact, 4> positions(const Query& q, double t) {
   return x;
 }
 double norm(const Exact& v) { return std::sqrt(oracle::round_up<Rational>(dot(v, v))); }
-
-Mesh mesh_of(PairKind kind) {
-  if (kind == PairKind::vertex_face) return Mesh(4, Eigen::RowVector3i(1, 2, 3));
-  Eigen::MatrixXi edges(2, 2);
-  edges << 0, 1, 2, 3;
-  return Mesh(4, edges, Eigen::MatrixXi(0, 3));
-}
-Eigen::MatrixXd matrix(const std::array<Point, 4>& points) {
-  Eigen::MatrixXd x(4, 3);
-  for (int i = 0; i < 4; ++i) x.row(i) << points[i][0], points[i][1], points[i][2];
-  return x;
-}
 
 // Upper bound of the largest corner difference's Euclidean norm.
 double rho_of(const Query& q) {
@@ -124,7 +113,7 @@ bool check(const Query& query, double d, double tolerance, bool closes) {
   options.min_separation = d;
   options.relative_tolerance = tolerance;
   const ActiveSet set =
-      construct_active_set(mesh_of(query.kind), matrix(query.t0), matrix(query.t1), options);
+      construct_active_set(tests::mesh_of(query.kind), tests::positions(query.t0), tests::positions(query.t1), options);
   if (set.size() == 0) return false;
   INFO(to_text(query));
   CAPTURE(d, set[0].toi, to_string(set[0].outcome), int(set[0].degenerate));
@@ -181,7 +170,7 @@ TEST_CASE("a vertex that falls on a face has the face's normal on its own side",
     const Query query{PairKind::vertex_face,
                       {{{0.25, 0.25, side}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
                       {{{0.25, 0.25, -side}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
-    const ActiveSet set = construct_active_set(mesh_of(query.kind), matrix(query.t0), matrix(query.t1));
+    const ActiveSet set = construct_active_set(tests::mesh_of(query.kind), tests::positions(query.t0), tests::positions(query.t1));
     REQUIRE(set.size() == 1);
     CHECK(set[0].normal == Point{0, 0, side});
     CHECK(set[0].weights == std::array<double, 4>{1, -0.5, -0.25, -0.25});
@@ -211,7 +200,7 @@ TEST_CASE("pairs without a cross product have the normal of their gap, or touchi
       for (int i = 0; i < scenes::first_body(q.kind); ++i) q.t0[i][2] = from;
       Options o;
       o.touching_may_pass_through = true;
-      const ActiveSet set = construct_active_set(mesh_of(q.kind), matrix(q.t0), matrix(q.t1), o);
+      const ActiveSet set = construct_active_set(tests::mesh_of(q.kind), tests::positions(q.t0), tests::positions(q.t1), o);
       REQUIRE(set.size() == 1);
       CAPTURE(scenes::name(q.kind), from);
       CHECK(set[0].normal == Point{0, 0, from == 1 ? 1.0 : -1.0});
@@ -228,7 +217,7 @@ TEST_CASE("pairs that meet along an edge or within a plane are divided across th
                     {{{0.25, 0, 2}, {0, 0, 0}, {1, 0, 1}, {-1, 0, 1}}},
                     {{{0.25, 0, 0.5}, {0, 0, 0}, {1, 0, 1}, {-1, 0, 1}}}};
   for (const Query& q : {ends, slide}) {
-    const ActiveSet set = construct_active_set(mesh_of(q.kind), matrix(q.t0), matrix(q.t1));
+    const ActiveSet set = construct_active_set(tests::mesh_of(q.kind), tests::positions(q.t0), tests::positions(q.t1));
     REQUIRE(set.size() == 1);
     CAPTURE(scenes::name(q.kind));
     CHECK(set[0].normal == Point{0, 0, 1});
@@ -241,8 +230,8 @@ TEST_CASE("constraints hold at the start of a step and tell how far its end is t
   int rows = 0;
   for (int i = 0; i < 50; ++i) {
     const Query query = scenes::interior_query(i % 2 ? PairKind::vertex_face : PairKind::edge_edge, random);
-    const Eigen::MatrixXd x0 = matrix(query.t0), x1 = matrix(query.t1);
-    const ActiveSet set = construct_active_set(mesh_of(query.kind), x0, x1);
+    const Eigen::MatrixXd x0 = tests::positions(query.t0), x1 = tests::positions(query.t1);
+    const ActiveSet set = construct_active_set(tests::mesh_of(query.kind), x0, x1);
     REQUIRE(set.size() == 1);
     const std::vector<int> full{7, 3, 5, 0};
     const Constraints c = assemble_constraints(set, 1e-3, full);

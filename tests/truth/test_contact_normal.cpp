@@ -10,6 +10,7 @@
 #include "tests/narrowphase/symmetries.hpp"
 #include "tests/oracle/promises.hpp"
 #include "tests/queries/random_query.hpp"
+#include "tests/src/support/one_pair.hpp"
 #include "tests/truth/exact_row.hpp"
 
 using namespace onset;
@@ -18,19 +19,6 @@ using scenes::Query;
 using scenes::Random;
 
 namespace {
-
-Mesh mesh_of(PairKind kind) {
-  if (kind == PairKind::vertex_face) return Mesh(4, Eigen::RowVector3i(1, 2, 3));
-  Eigen::MatrixXi edges(2, 2);
-  edges << 0, 1, 2, 3;
-  return Mesh(4, edges, Eigen::MatrixXi(0, 3));
-}
-Eigen::MatrixXd matrix(const std::array<Point, 4>& points) {
-  Eigen::MatrixXd x(4, 3);
-  for (int i = 0; i < 4; ++i)
-    for (int a = 0; a < 3; ++a) x(i, a) = points[std::size_t(i)][std::size_t(a)];
-  return x;
-}
 
 bool same_bytes(const ActiveSet& a, const ActiveSet& b) {
   const auto numbers = [](const Contact& c) {
@@ -59,7 +47,7 @@ void check_all(const Query& query, Past past, Options o, Counts& counts) {
          {Exactness::conservative, Exactness::certify, Exactness::exact}) {
       o.exactness = level, o.instruction_set = InstructionSet::scalar, o.threads = 1;
       const Mesh mesh = mesh_of(q.kind);
-      const Eigen::MatrixXd x0 = matrix(q.t0), x1 = matrix(q.t1);
+      const Eigen::MatrixXd x0 = positions(q.t0), x1 = positions(q.t1);
       const ActiveSet set = construct_active_set(mesh, x0, x1, o);
       for (const InstructionSet kernel : kernels()) {
         o.instruction_set = kernel;
@@ -252,7 +240,7 @@ TEST_CASE("contacts of random pairs, with and without a separation, have the nor
 namespace {
 
 ActiveSet active_set(const Query& q, const Options& o = {}) {
-  return construct_active_set(mesh_of(q.kind), matrix(q.t0), matrix(q.t1), o);
+  return construct_active_set(mesh_of(q.kind), positions(q.t0), positions(q.t1), o);
 }
 
 }  // namespace

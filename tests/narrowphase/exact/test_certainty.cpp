@@ -1,6 +1,7 @@
 // What Options::exactness promises about single queries, against the rational oracle.
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact/exact_query.hpp"
+#include "tests/oracle/all_families.hpp"
 #include "tests/oracle/promises.hpp"
 #include "tests/oracle/walk.hpp"
 #include "tests/queries/query_file.hpp"
@@ -10,19 +11,6 @@ using namespace onset;
 using scenes::Query;
 
 namespace {
-
-template <class F>  // f(query)
-void for_all(int count, std::uint64_t seed, F&& f) {
-  for (const scenes::Family& family : scenes::families())
-    for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
-      scenes::Random random = scenes::seeded(family, kind, oracle::fuzz_seed() + seed);
-      for (int i = 0; i < count; ++i) {
-        const Query query = family.make(kind, random);
-        INFO(family.name << " " << to_text(query));
-        f(query);
-      }
-    }
-}
 
 bool same(const QueryResult& x, const QueryResult& y) {
   return x.outcome == y.outcome && x.toi == y.toi && x.step_limit == y.step_limit &&
@@ -51,7 +39,7 @@ Count count_hand_made(const std::string& folder, double tolerance, const Options
 TEST_CASE("exact: neither a miss nor a false positive, whatever the tolerance and budget",
           "[property][oracle]") {
   scenes::Random choice(9);
-  for_all(oracle::fuzz(16), 41, [&](const Query& query) {
+  oracle::for_all_families(oracle::fuzz(16), 41, [&](const scenes::Family&, const Query& query, scenes::Random&) {
     const oracle::Truth truth = oracle::exact_ccd(query);
     Options options;
     options.exactness = Exactness::exact;
@@ -72,7 +60,7 @@ TEST_CASE("exact: neither a miss nor a false positive, whatever the tolerance an
 
 TEST_CASE("certify: what is called certain is real, and touches by toi_hi", "[property][oracle]") {
   int certain = 0, left = 0;
-  for_all(oracle::fuzz(16), 42, [&](const Query& query) {
+  oracle::for_all_families(oracle::fuzz(16), 42, [&](const scenes::Family&, const Query& query, scenes::Random&) {
     Options options;
     options.exactness = Exactness::certify;
     const QueryResult r = scenes::ccd(query, options);
@@ -94,7 +82,7 @@ TEST_CASE("certify: what is called certain is real, and touches by toi_hi", "[pr
 
 TEST_CASE("certain with a separation: they do come as close", "[property][oracle]") {
   int certain = 0;
-  for_all(oracle::fuzz(8), 43, [&](const Query& query) {
+  oracle::for_all_families(oracle::fuzz(8), 43, [&](const scenes::Family&, const Query& query, scenes::Random&) {
     Options options;
     options.exactness = Exactness::exact;
     options.min_separation = 0.01 * oracle::extent(query);
@@ -114,7 +102,7 @@ TEST_CASE("certain with a separation: they do come as close", "[property][oracle
 }
 
 TEST_CASE("certainty: the same bytes from both kernels", "[determinism]") {
-  for_all(oracle::fuzz(16), 44, [&](const Query& query) {
+  oracle::for_all_families(oracle::fuzz(16), 44, [&](const scenes::Family&, const Query& query, scenes::Random&) {
     for (Exactness level : {Exactness::certify, Exactness::exact}) {
       Options options;
       options.exactness = level;

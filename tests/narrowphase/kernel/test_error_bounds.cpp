@@ -2,6 +2,7 @@
 // the text with contraction on must keep the same bounds.
 #include <cmath>
 
+#include "base/unit_roundoff.hpp"
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/narrowphase/climb.hpp"
@@ -17,8 +18,6 @@ using scenes::Query;
 using scenes::Random;
 
 namespace {
-
-constexpr double kU = 0x1p-53;
 
 struct Input {
   Query query;

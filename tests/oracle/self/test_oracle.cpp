@@ -4,6 +4,7 @@
 #include "tests/catch.hpp"
 #include "tests/oracle/contact.hpp"
 #include "tests/oracle/distance.hpp"
+#include "tests/oracle/all_families.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/promises.hpp"
 #include "tests/scenes/families.hpp"
@@ -29,19 +30,6 @@ static void check_free(const Query& query) {
 }
 
 // f(query) for `count` queries of every family and kind.
-template <class F>
-static void for_all_families(int count, std::uint64_t seed, F&& f) {
-  for (const scenes::Family& family : scenes::families())
-    for (PairKind kind : {kVertexFace, kEdgeEdge}) {
-      scenes::Random random = scenes::seeded(family, kind, oracle::fuzz_seed() + seed);
-      for (int i = 0; i < count; ++i) {
-        const Query query = family.make(kind, random);
-        INFO(family.name << " " << to_text(query));
-        f(family, query);
-      }
-    }
-}
-
 TEST_CASE("examples of Wang et al. 2021, appendix B and C", "[unit][oracle]") {
   const Query not_handled_by_brochu{kVertexFace,
                                     {{{0.1, 0.1, 0.1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}},
@@ -176,7 +164,7 @@ TEST_CASE("an irrational time of impact lies strictly between adjacent doubles",
 }
 
 TEST_CASE("contacts and misses by construction", "[property][oracle]") {
-  for_all_families(oracle::fuzz(40), 11, [](const scenes::Family& family, const Query& query) {
+  oracle::for_all_families(oracle::fuzz(40), 11, [](const scenes::Family& family, const Query& query, scenes::Random&) {
     const Truth truth = oracle::exact_ccd(query);
     if (family.expect == scenes::Expect::contact) CHECK(truth.collides);
     if (family.expect == scenes::Expect::free) CHECK_FALSE(truth.collides);
@@ -208,7 +196,7 @@ static std::vector<Query> equivalent(const Query& query) {
 
 TEST_CASE("the answer does not depend on the order of points, axes, signs or the direction of time",
           "[property][oracle]") {
-  for_all_families(oracle::fuzz(10), 12, [](const scenes::Family&, const Query& query) {
+  oracle::for_all_families(oracle::fuzz(10), 12, [](const scenes::Family&, const Query& query, scenes::Random&) {
     const Truth truth = oracle::exact_ccd(query);
     for (const Query& other : equivalent(query)) {
       const Truth same = oracle::exact_ccd(other);
@@ -223,7 +211,7 @@ TEST_CASE("the answer does not depend on the order of points, axes, signs or the
 }
 
 TEST_CASE("two number types, integers and fractions, give the same answer", "[property][oracle]") {
-  for_all_families(2, 13, [](const scenes::Family& family, const Query& query) {
+  oracle::for_all_families(2, 13, [](const scenes::Family& family, const Query& query, scenes::Random&) {
     if (std::string(family.name) == "mixed_magnitudes") return;  // slow
     using Q = oracle::PortableRational;
     std::array<oracle::Vector<Q>, 4> x0, x1;
@@ -250,7 +238,7 @@ static oracle::Relative<Rational> relative_at(const Query& query, double t) {
 // points show that nothing in the set is shorter; the corners show that the plane through d separates all of
 // it from the origin.
 TEST_CASE("the shortest difference is proved shortest by a separating plane", "[property][oracle]") {
-  for_all_families(oracle::fuzz(6), 14, [](const scenes::Family&, const Query& query) {
+  oracle::for_all_families(oracle::fuzz(6), 14, [](const scenes::Family&, const Query& query, scenes::Random&) {
     for (double t : {0.0, 0.375, 1.0}) {
       const auto r = relative_at(query, t);
       const auto d = oracle::shortest_difference(r);
@@ -268,7 +256,7 @@ TEST_CASE("the shortest difference is proved shortest by a separating plane", "[
 }
 
 TEST_CASE("the maximum-norm distance is where the cube first meets the polygon", "[property][oracle]") {
-  for_all_families(oracle::fuzz(4), 15, [](const scenes::Family&, const Query& query) {
+  oracle::for_all_families(oracle::fuzz(4), 15, [](const scenes::Family&, const Query& query, scenes::Random&) {
     for (double t : {0.0, 0.625}) {
       const auto r = relative_at(query, t);
       const Rational d = oracle::maximum_norm_distance(r);

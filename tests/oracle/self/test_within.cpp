@@ -1,5 +1,6 @@
 // The first time within a distance: against exact distances at that time and before, and answers by hand.
 #include "tests/catch.hpp"
+#include "tests/oracle/all_families.hpp"
 #include "tests/oracle/promises.hpp"
 #include "tests/oracle/quick.hpp"
 #include "tests/oracle/walk.hpp"
@@ -9,19 +10,6 @@ using namespace onset;
 using scenes::Query;
 
 namespace {
-
-template <class F>  // f(query, random)
-void for_all_families(int count, std::uint64_t seed, F&& f) {
-  for (const scenes::Family& family : scenes::families())
-    for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
-      scenes::Random random = scenes::seeded(family, kind, oracle::fuzz_seed() + seed);
-      for (int i = 0; i < count; ++i) {
-        const Query query = family.make(kind, random);
-        INFO(family.name << " " << to_text(query));
-        f(query, random);
-      }
-    }
-}
 
 // Within d at the latest at toi_hi, beyond d at and before toi_lo, or for all time.
 void check_first_time(const Query& query, double d, Norm norm, scenes::Random& random) {
@@ -42,8 +30,8 @@ void check_first_time(const Query& query, double d, Norm norm, scenes::Random& r
 
 TEST_CASE("the first time within a distance is the first, in both norms", "[property][oracle]") {
   for (Norm norm : {Norm::euclidean, Norm::maximum})
-    for_all_families(oracle::fuzz(norm == Norm::euclidean ? 3 : 1), 61,
-                     [&](const Query& query, scenes::Random& random) {
+    oracle::for_all_families(oracle::fuzz(norm == Norm::euclidean ? 3 : 1), 61,
+                     [&](const scenes::Family&, const Query& query, scenes::Random& random) {
                        const double size = oracle::extent(query);
                        if (!(size > 0x1p-900 && size < 0x1p900)) return;
                        const double at_some_time = oracle::distance(query, scenes::unit(random), norm).hi;
@@ -75,7 +63,7 @@ TEST_CASE("times within a distance that are known by hand", "[unit][oracle]") {
 
 TEST_CASE("what is surely apart is so, also after a step and its rounding", "[property][oracle]") {
   int sure = 0, total = 0;
-  for_all_families(oracle::fuzz(20), 62, [&](const Query& query, scenes::Random& random) {
+  oracle::for_all_families(oracle::fuzz(20), 62, [&](const scenes::Family&, const Query& query, scenes::Random& random) {
     const double until = scenes::unit(random);
     const double moved =
         scenes::coin(random) ? 0 : oracle::extent(query) * scenes::power_of_ten(random, -12, -2);
