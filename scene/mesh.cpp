@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "scene/edges_of_faces.hpp"
 #include "scene/primitive.hpp"
@@ -55,9 +56,26 @@ std::shared_ptr<MeshData> make_data(std::ptrdiff_t vertices, std::vector<std::ar
 
 }  // namespace
 
-Mesh::Mesh() : data_(make_data(0, {}, {}, {})) {}
+namespace {
+
+const std::shared_ptr<MeshData>& no_vertices() {
+  static const std::shared_ptr<MeshData> data = make_data(0, {}, {}, {});
+  return data;
+}
+
+}  // namespace
+
+Mesh::Mesh() : data_(no_vertices()) {}
+
+// Whoever moves from a mesh has made it, or one like it, so that nothing is allocated here.
+Mesh::Mesh(Mesh&& other) noexcept : data_(std::exchange(other.data_, no_vertices())) {}
+Mesh& Mesh::operator=(Mesh&& other) noexcept {
+  if (this != &other) data_ = std::exchange(other.data_, no_vertices());
+  return *this;
+}
 
 Mesh::Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces, const CollisionRules& rules) {
+  no_vertices();
   auto E = checked<2>("edge", edges, checked_count(vertices));
   auto F = checked<3>("face", faces, vertices);
   require_edges_of_faces(E, F);
@@ -65,6 +83,7 @@ Mesh::Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces, 
 }
 
 Mesh::Mesh(std::ptrdiff_t vertices, const Indices& faces, const CollisionRules& rules) {
+  no_vertices();
   auto F = checked<3>("face", faces, checked_count(vertices));
   data_ = make_data(vertices, edge_list(faces), std::move(F), rules);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/float_environment.hpp"
 #include "scene/named_pairs.hpp"
 
 namespace onset {
@@ -129,6 +130,7 @@ void apply_pairs(const CollisionRules& rules, MeshData& data) {
 }  // namespace
 
 void apply_rules(const CollisionRules& rules, MeshData& data) {
+  const FloatEnvironment environment;
   apply_points(rules.points, data);
   apply_thickness(rules.thickness, data);
   apply_bodies(rules, data);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/float_environment.hpp"
+
 namespace onset {
 namespace {
 
@@ -37,6 +39,7 @@ std::array<int, 4> mapped(const std::array<int, 4>& vertices, const std::vector<
 }  // namespace
 
 Constraints assemble_constraints(const ActiveSet& set, double eta, const std::vector<int>& full_vertex) {
+  const FloatEnvironment environment;
   if (!std::isfinite(eta)) throw std::invalid_argument("eta is not finite");
   Constraints c;
   c.bound.assign(set.size(), eta);

@@ -90,7 +90,7 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
   check(options);
   check_d_hat(options.d_hat, true);
   check_gap_share(options.gap_share);
-  const std::vector<double> x_t1 = sum(x_t0, dx);
+  const std::vector<double> x_t1 = in_float_environment(sum, x_t0, dx);
   Impl& h = *impl_;
   for (std::ptrdiff_t i = 0; options.d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
   in_arena(options.threads, [&] {
@@ -158,7 +158,10 @@ ClosePairs LineSearch::close_pairs(double step) const {
   in_arena(h.options.threads, [&] {
     const Clock clock;
     const std::vector<double> x = h.at(step);
-    r.pairs = find_close(h.source(h.near), {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options});
+    Budget budget(h.options);
+    auto close = find_close(h.source(h.near), {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options}, budget);
+    r.pairs = std::move(close.found);
+    r.outcome = close.too_many ? Outcome::out_of_memory : budget.outcome();
     r.seconds = clock.seconds();
   });
   return r;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/float_environment.hpp"
 #include "narrowphase/corners.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "onset/query.hpp"
@@ -67,10 +68,10 @@ QueryResult solve(PairKind kind, const std::array<Point, 4>& t0, const std::arra
 }  // namespace
 
 QueryResult vertex_face_ccd(const VertexFaceQuery& q, const Options& options) {
-  return solve(PairKind::vertex_face, q.t0, q.t1, options);
+  return in_float_environment(solve, PairKind::vertex_face, q.t0, q.t1, options);
 }
 QueryResult edge_edge_ccd(const EdgeEdgeQuery& q, const Options& options) {
-  return solve(PairKind::edge_edge, q.t0, q.t1, options);
+  return in_float_environment(solve, PairKind::edge_edge, q.t0, q.t1, options);
 }
 
 }  // namespace onset

@@ -87,6 +87,7 @@ int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) 
 // moves by less than d_hat. Relative errors of computed norms and products are a few u; 1 - 2^-48 covers them and makes the bound
 // strict. Half of a subnormal gap rounds by 2^-1075, which is taken off.
 std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close) {
+  const FloatEnvironment environment;
   check_rows("x", x, mesh.num_vertices());
   check_close(mesh, close);
   std::vector<double> r(std::size_t(mesh.num_vertices()), close.d_hat);
@@ -102,6 +103,7 @@ std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const C
 }
 
 double safe_step(const std::vector<double>& r, const Positions& dx) {
+  const FloatEnvironment environment;
   check_rows("dx", dx, std::ptrdiff_t(r.size()));
   double step = 1;
   for (std::ptrdiff_t v = 0; v < dx.rows(); ++v) {
@@ -114,6 +116,7 @@ double safe_step(const std::vector<double>& r, const Positions& dx) {
 
 StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                 const ClosePairs& close, const Options& options, double gap_share) {
+  const FloatEnvironment environment;
   check(options);
   check_gap_share(gap_share);
   check_close(mesh, close);

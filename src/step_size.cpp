@@ -30,6 +30,11 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
   return r;
 }
 
+[[noreturn]] void reject(PairKind kind, std::size_t row, const std::string& why) {
+  throw std::invalid_argument((kind == PairKind::vertex_face ? "vertex_face row " : "edge_edge row ") +
+                              std::to_string(row) + ": " + why);
+}
+
 std::vector<IdPair> checked(const MeshData& mesh, PairKind kind,
                             const std::vector<std::array<int, 2>>& list) {
   const bool vf = kind == PairKind::vertex_face;
@@ -39,15 +44,13 @@ std::vector<IdPair> checked(const MeshData& mesh, PairKind kind,
   pairs.reserve(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     IdPair p{list[i][0], list[i][1]};
-    const std::string row = (vf ? "vertex_face row " : "edge_edge row ") + std::to_string(i);
     if (p.a < 0 || p.a >= firsts || p.b < 0 || p.b >= seconds)
-      throw std::invalid_argument(row + ": the mesh has no pair " + std::to_string(p.a) + ", " +
-                                  std::to_string(p.b));
+      reject(kind, i, "the mesh has no pair " + std::to_string(p.a) + ", " + std::to_string(p.b));
     if (!vf && p.a > p.b) std::swap(p.a, p.b);
     const std::array<int, 4> v = pair_vertices(mesh, kind, p);
     for (int k = vf ? 1 : 2; k < 4; ++k)
       if (v[0] == v[std::size_t(k)] || (!vf && v[1] == v[std::size_t(k)]))
-        throw std::invalid_argument(row + ": the two share vertex " + std::to_string(v[std::size_t(k)]));
+        reject(kind, i, "the two share vertex " + std::to_string(v[std::size_t(k)]));
     pairs.push_back(p);
   }
   return pairs;

@@ -27,6 +27,12 @@ class ONSET_API Mesh {
  public:
   // Of no vertices: to be assigned to.
   Mesh();
+  Mesh(const Mesh&) = default;
+  Mesh& operator=(const Mesh&) = default;
+  // The other one is left with no vertices.
+  Mesh(Mesh&& other) noexcept;
+  Mesh& operator=(Mesh&& other) noexcept;
+  ~Mesh() = default;
 
   // vertices: #V, the number of rows of every positions matrix.
   // edges: #E x 2, faces: #F x 3, ids of vertices. An edge given twice is two edges: the pairs of both are listed.

@@ -16,6 +16,13 @@ namespace {
   throw std::invalid_argument(s.str());
 }
 
+constexpr int kMostThreads = 4096;
+
+template <class E>
+void check_enum(const char* name, E value, E last) {
+  if (int(value) < 0 || value > last) reject(name, double(int(value)), "one of the enumerators");
+}
+
 }  // namespace
 
 void check(const Options& o) {
@@ -30,7 +37,12 @@ void check(const Options& o) {
   if (!(o.time_limit >= 0)) reject("time_limit", o.time_limit, "a number >= 0, or infinite");
   if (o.check_limit < 0) reject("check_limit", double(o.check_limit), "at least 0");
   if (o.memory_limit < 0) reject("memory_limit", double(o.memory_limit), "at least 0");
-  if (o.threads < 0) reject("threads", o.threads, "at least 1, or 0 for the caller's arena");
+  if (o.threads < 0 || o.threads > kMostThreads)
+    reject("threads", o.threads, "at least 1 and at most 4096, or 0 for the caller's arena");
+  check_enum("norm", o.norm, Norm::maximum);
+  check_enum("broad_phase", o.broad_phase, BroadPhaseMethod::brute);
+  check_enum("narrow_phase", o.narrow_phase, NarrowPhaseMethod::inclusion);
+  check_enum("exactness", o.exactness, Exactness::exact);
 }
 
 void check_gap_share(double gap_share) {

@@ -28,33 +28,6 @@ double separation_of(const CloseInput& in, const Pair& pair) {
   return ratio * (in.options.min_separation + thickness) * (1 + 0x1p-50);
 }
 
-constexpr std::size_t kBlocksATask = 4;
-
-struct Task {
-  const CloseInput& in;
-  PairKind kind;
-  std::vector<ClosePair> close;
-
-  // fl(lower - separation) <= d_hat + slack, rounded up, holds wherever the exact distance is below d_hat
-  // plus the separation: `lower` is no larger, and rounding is monotonic.
-  void add_if_close(IdPair ids) {
-    ClosePair p;
-    static_cast<Pair&>(p) = {kind, ids.a, ids.b, pair_vertices(in.mesh.data(), kind, ids)};
-    const double* x[4];
-    for (std::size_t i = 0; i < 4; ++i) x[i] = in.x + 4 * std::size_t(p.vertices[i]);
-    const auto same = [&](int i, int j) { return at_one_place(x[i], x[j]); };
-    if (in.mesh.data().weld && any_across(points_of_first_side(kind), 4, same)) return;
-    const ClosestPoints at = closest_points(kind, x);
-    p.separation = separation_of(in, p);
-    const double gap = at.lower - p.separation;
-    if (gap > (in.d_hat + in.slack) * (1 + 0x1p-52)) return;
-    std::copy(at.weights, at.weights + 4, p.weights.begin());
-    p.distance = at.distance;
-    p.gap = std::max(0.0, gap * (1 - 0x1p-52));
-    close.push_back(p);
-  }
-};
-
 }  // namespace
 
 void check_d_hat(double d_hat, bool zero_allowed) {
@@ -73,17 +46,33 @@ double euclidean_reach(const MeshData& mesh, const Options& options, double d_ha
   return (separation + d_hat + rounding) * (1 + 0x1p-48);
 }
 
-std::vector<ClosePair> find_close(const PairSource& candidates, const CloseInput& input) {
-  std::vector<ClosePair> all;
-  for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
-    visit_pairs(
-        candidates, kind, kBlocksATask, Task{input, kind, {}},
-        [](Task& task, const IdPair* pairs, std::size_t count) {
-          for (std::size_t i = 0; i < count; ++i) task.add_if_close(pairs[i]);
-        },
-        [&](const Task& task, std::size_t) { all.insert(all.end(), task.close.begin(), task.close.end()); },
-        [] { return false; });
-  parallel_sort(all.begin(), all.end(), [](const ClosePair& p, const ClosePair& q) {
+// fl(lower - separation) <= d_hat + slack, rounded up, holds wherever the exact distance is below d_hat
+// plus the separation: `lower` is no larger, and rounding is monotonic.
+void add_if_close(const CloseInput& in, PairKind kind, IdPair ids, std::vector<ClosePair>& close) {
+  ClosePair p;
+  static_cast<Pair&>(p) = {kind, ids.a, ids.b, pair_vertices(in.mesh.data(), kind, ids)};
+  const double* x[4];
+  for (std::size_t i = 0; i < 4; ++i) x[i] = in.x + 4 * std::size_t(p.vertices[i]);
+  const auto same = [&](int i, int j) { return at_one_place(x[i], x[j]); };
+  if (in.mesh.data().weld && any_across(points_of_first_side(kind), 4, same)) return;
+  const ClosestPoints at = closest_points(kind, x);
+  p.separation = separation_of(in, p);
+  const double gap = at.lower - p.separation;
+  if (gap > (in.d_hat + in.slack) * (1 + 0x1p-52)) return;
+  std::copy(at.weights, at.weights + 4, p.weights.begin());
+  p.distance = at.distance;
+  p.gap = std::max(0.0, gap * (1 - 0x1p-52));
+  close.push_back(p);
+}
+
+Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& input, Budget& budget) {
+  const std::size_t most = std::size_t(input.options.memory_limit / std::int64_t(sizeof(ClosePair)));
+  auto all = gather<ClosePair>(candidates, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+                               [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<ClosePair>& close) {
+                                 for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
+                               });
+  if (budget.outcome() != Outcome::free) all.found.clear();
+  parallel_sort(all.found.begin(), all.found.end(), [](const ClosePair& p, const ClosePair& q) {
     return std::tie(p.kind, p.a, p.b) < std::tie(q.kind, q.a, q.b);
   });
   return all;

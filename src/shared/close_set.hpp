@@ -2,6 +2,7 @@
 #pragma once
 
 #include "onset/close_pairs.hpp"
+#include "src/shared/visit_pairs.hpp"
 #include "scene/pair_source.hpp"
 
 namespace onset {
@@ -21,7 +22,10 @@ struct CloseInput {
   const Options& options;
 };
 
-// Sorted by (kind, a, b).
-std::vector<ClosePair> find_close(const PairSource& candidates, const CloseInput& input);
+// Adds the pair where its exact distance may be below d_hat plus its separation.
+void add_if_close(const CloseInput& input, PairKind kind, IdPair ids, std::vector<ClosePair>& close);
+
+// Sorted by (kind, a, b); none where the budget is spent, or memory_limit.
+Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& input, Budget& budget);
 
 }  // namespace onset

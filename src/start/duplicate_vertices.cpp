@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -10,12 +13,23 @@
 
 namespace onset {
 
+namespace {
+
+// Integers in the order of the finite numbers, -0 being 0: they compare alike on threads that flush subnormal numbers.
+std::int64_t ordered(double x) {
+  std::int64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits < 0 ? std::numeric_limits<std::int64_t>::min() - bits : bits;
+}
+
+}  // namespace
+
 std::vector<std::vector<int>> shared_places(const Positions& x) {
   std::vector<int> order(std::size_t(x.rows()));
   std::iota(order.begin(), order.end(), 0);
-  const auto compare = [&](int v, int w) {  // by the numbers, so that -0 is 0
+  const auto compare = [&](int v, int w) {
     for (int a = 0; a < 3; ++a)
-      if (x(v, a) != x(w, a)) return x(v, a) < x(w, a) ? -1 : 1;
+      if (const std::int64_t p = ordered(x(v, a)), q = ordered(x(w, a)); p != q) return p < q ? -1 : 1;
     return 0;
   };
   parallel_sort(order.begin(), order.end(), [&](int v, int w) {
@@ -33,6 +47,7 @@ std::vector<std::vector<int>> shared_places(const Positions& x) {
 }
 
 std::vector<std::array<int, 2>> duplicate_vertices(const Positions& x) {
+  const FloatEnvironment environment;
   if (x.cols() != 3) throw std::invalid_argument("x has " + std::to_string(x.cols()) + " columns, not 3");
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
     for (int a = 0; a < 3; ++a)

@@ -9,21 +9,6 @@
 namespace onset {
 namespace {
 
-// One batch of pairs as a source.
-class Batch final : public PairSource {
- public:
-  Batch(PairKind kind, const IdPair* pairs, std::size_t count) : kind_(kind), pairs_(pairs), count_(count) {}
-  std::size_t blocks(PairKind kind) const override { return kind == kind_ && count_ > 0 ? 1 : 0; }
-  void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
-    if (first < last && blocks(kind) > 0) sink(pairs_, count_);
-  }
-
- private:
-  PairKind kind_;
-  const IdPair* pairs_;
-  std::size_t count_;
-};
-
 class Near {
  public:
   Near(const Mesh& mesh, const Motion& motion, const Options& options)
@@ -32,10 +17,13 @@ class Near {
       for (int a = 0; a < 3; ++a) x_[std::size_t(4 * v + a)] = motion.t0(v)[a];
   }
 
-  // find_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as
+  // add_if_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as
   // much; but for what is welded.
   void add_near(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
-    for (const ClosePair& p : find_close(Batch(kind, pairs, count), {mesh_, x_.data(), 0, 0, options_})) {
+    std::vector<ClosePair> close;
+    for (std::size_t i = 0; i < count; ++i)
+      add_if_close({mesh_, x_.data(), 0, 0, options_}, kind, pairs[i], close);
+    for (const ClosePair& p : close) {
       const double* x[4];
       for (std::size_t i = 0; i < 4; ++i) x[i] = motion_.t0(p.vertices[i]);
       const bool touches = exactly_touches({kind, {x[0], x[1], x[2], x[3]}, {x[0], x[1], x[2], x[3]}});
