@@ -32,6 +32,8 @@ struct Candidates {
 // Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out
 // of range.
 // Safe to call concurrently on one Mesh.
+//
+// Source: docs/theory.md, section 13.
 ONSET_API Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                         const Options& options = {});
 

@@ -21,8 +21,9 @@ struct MeshData;  // scene/mesh_data.hpp
 // another without touching unless aimed exactly: they are tested against each other where they are declared
 // (CollisionRules::points), as those that must keep a distance should be.
 //
-// Checked once, shared by every call. Immutable but for the two set_ functions. Const calls from any number of threads are safe, a set_ function
-// with any other call is not. Copies share their data until one of them is changed.
+// Checked once, shared by every call. Immutable but for the two set_ functions. Const calls from any number
+// of threads are safe, a set_ function with any other call is not. Copies share their data until one of them
+// is changed.
 class ONSET_API Mesh {
  public:
   // Of no vertices: to be assigned to.

@@ -1,4 +1,4 @@
-// Everything a simulator includes.
+// Everything a simulator includes. Positions are rows of x y z, and what a call promises stands above it.
 #pragma once
 
 #include <onset/active_set.hpp>

@@ -37,6 +37,8 @@ struct QueryResult : Contact {
 // call are not used.
 // Throws std::invalid_argument for options out of range; NaN, infinities, |x| > 2^1020 are outcomes.
 // Safe to call concurrently.
+//
+// Source: as construct_active_set; docs/theory.md, section 9.
 ONSET_API QueryResult vertex_face_ccd(const VertexFaceQuery& query, const Options& options = {});
 ONSET_API QueryResult edge_edge_ccd(const EdgeEdgeQuery& query, const Options& options = {});
 
