@@ -36,7 +36,7 @@ struct ClosePairs {
   std::vector<ClosePair> pairs;
   // As asked for.
   double d_hat = 0;
-  // Other than free, there are no pairs: non_finite, out_of_range; out_of_time, cancelled before any work.
+  // free: all pairs are listed. non_finite, out_of_range, out_of_time, cancelled: none is.
   Outcome outcome = Outcome::free;
   // The offending vertex of non_finite and out_of_range, else -1.
   int vertex = -1;
