@@ -1,4 +1,4 @@
-// Everything a simulator includes. Positions are rows of x y z, and what a call promises stands above it.
+// All public headers but those in onset/compat/.
 #pragma once
 
 #include <onset/active_set.hpp>
