@@ -17,8 +17,8 @@ struct ActiveSet {
   Outcome outcome = Outcome::free;
   // The offending vertex of non_finite and out_of_range, else -1.
   int vertex = -1;
-  // Every contact with toi < complete_until is in the set. Infinite where all are; earliest + Options::window with a
-  // window; 0 where time or checks ran out or the call was cancelled.
+  // Every contact with toi < complete_until is in the set. Infinite where all are; earliest + Options::window
+  // with a window; 0 where time or checks ran out or the call was cancelled.
   double complete_until = 0;
   Stats stats;
 
@@ -31,17 +31,21 @@ struct ActiveSet {
   ONSET_API const Contact* earliest() const;
 };
 
-// Finds every pair that is not certified free on the whole step, its time of impact, contact point and normal.
+// Finds every pair that is not certified free on the whole step, its time of impact, point and normal.
 //
-// Guarantee: no pair with a contact is left out (up to complete_until, where a budget or a window cuts off), none has a
-// toi later than its exact time, and none is listed that stays beyond separation + tolerance.
+// Guarantee: no pair with a contact is left out (up to complete_until, where a budget or a window cuts off),
+// none has a toi later than its exact time, and none is listed that stays beyond separation + tolerance.
 //
-// x_t0, x_t1: #V x 3, model length, the two ends of a linear motion; x_t0 is assumed to be free of intersections.
+// x_t0, x_t1: #V x 3, model length, the two ends of a linear motion; x_t0 is assumed to be free of
+// intersections.
 // options: Options::window asks for the earliest contacts only.
-// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out of range.
+// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out
+// of range.
 // Safe to call concurrently on one Mesh.
 //
-// Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo 2021 (onset/step_size.hpp), section 7.1 and Algorithm 3.
+// Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo, "A Large-Scale Benchmark and an Inclusion-Based
+// Algorithm for Continuous Collision Detection", ACM Transactions on Graphics 40(5), 2021, section 7.1 and
+// Algorithm 3; docs/theory.md.
 ONSET_API ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                          const Options& options = {});
 

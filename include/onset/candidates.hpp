@@ -12,8 +12,8 @@
 
 namespace onset {
 
-// The pairs whose swept boxes (of the motion, widened by half the separation each, and by half of what storing
-// positions in doubles can change) overlap and share no vertex.
+// The pairs whose swept boxes (of the motion, widened by half the separation each, and by half of what
+// storing positions in doubles can change) overlap and share no vertex.
 struct Candidates {
   // Vertex and face; two edges, the smaller id first. Sorted.
   std::vector<std::array<int, 2>> vertex_face, edge_edge;
@@ -25,12 +25,15 @@ struct Candidates {
   Stats stats;
 };
 
-// Lists the candidates of a step. Guarantee: every pair that touches, or comes within its separation, on the exact
-// motion or as stored is among them.
+// Lists the candidates of a step. Guarantee: every pair that touches, or comes within its separation, on the
+// exact motion or as stored is among them.
 //
 // x_t0, x_t1: #V x 3, model length, the two ends of a linear motion.
-// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out of range.
+// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out
+// of range.
 // Safe to call concurrently on one Mesh.
+//
+// Source: docs/theory.md, section 13.
 ONSET_API Candidates compute_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                         const Options& options = {});
 
@@ -43,8 +46,10 @@ using CandidateVisitor = std::function<void(PairKind kind, const std::array<int,
 
 // Hands every candidate to `visit`, each once, in batches and in no particular order, in constant memory.
 //
-// visit: called from several threads at once unless Options::threads is 1; an exception that it throws leaves the call.
-// Returns counts, outcome and statistics; after a spent budget not all were visited. Otherwise as compute_candidates.
+// visit: called from several threads at once unless Options::threads is 1; an exception that it throws leaves
+// the call.
+// Returns counts, outcome and statistics; after a spent budget not all were visited. Otherwise as
+// compute_candidates.
 ONSET_API Candidates visit_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                       const CandidateVisitor& visit, const Options& options = {});
 

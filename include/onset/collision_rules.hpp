@@ -10,49 +10,52 @@
 
 namespace onset {
 
-// What is left empty does not matter; the order in which fields are filled does not either. A mesh checks all of it at
-// once (Mesh::set_rules). A pair is left out of every call, and named by none, where any of the rules says so; the
-// primitives left with no partner get no box.
+// What is left empty does not matter; the order in which fields are filled does not either. A mesh checks all
+// of it at once (Mesh::set_rules). A pair is left out of every call, and named by none, where any of the
+// rules says so; the primitives left with no partner get no box.
 struct CollisionRules {
-  // Points: vertices of no edge and no face that meet each other, wires and all other edges, as particles with a
-  // separation or thickness do. Each becomes an edge {v, v} of length zero, after all others, in the order given: its
-  // pairs are edge_edge pairs by the id num_edges() - num_points() + row, whose `vertices` name v twice; the first of the
-  // two has the point's whole weight (1 or -1), the second 0. A pair with an edge of a face says no more than the point
-  // and that face do.
+  // Points: vertices of no edge and no face that meet each other, wires and all other edges, as particles
+  // with a separation or thickness do. Each becomes an edge {v, v} of length zero, after all others, in the
+  // order given: its pairs are edge_edge pairs by the id num_edges() - num_points() + row, whose `vertices`
+  // name v twice; the first of the two has the point's whole weight (1 or -1), the second 0. A pair with an
+  // edge of a face says no more than the point and that face do.
   std::vector<int> points;
 
-  // Thickness of each vertex (#V values >= 0, model length): a pair must stay apart by Options::min_separation plus the
-  // largest thickness among the vertices of each of its two primitives.
+  // Thickness of each vertex (#V values >= 0, model length): a pair must stay apart by
+  // Options::min_separation plus the largest thickness among the vertices of each of its two primitives.
   std::vector<double> thickness;
 
-  // Bodies: one id >= 0 a vertex (#V values), the same for all vertices of an edge or face; empty: all is body 0.
-  // Mesh::components() has the connected parts.
+  // Bodies: one id >= 0 a vertex (#V values), the same for all vertices of an edge or face; empty: all is
+  // body 0. Mesh::components() has the connected parts; Mesh::of_bodies(), which makes values of vertices of
+  // values of bodies, goes by the bodies that the mesh has been given already.
   std::vector<int> bodies;
-  // One flag a body. Rigid: its parts never meet each other; that it moves rigidly is the caller's business and not
-  // checked. Without self-collision: the same of a body that deforms.
+  // One flag a body. Rigid: its parts never meet each other; that it moves rigidly is the caller's business
+  // and not checked. Without self-collision: the same of a body that deforms.
   std::vector<bool> rigid_bodies, bodies_without_self_collision;
   // Bodies that pass through each other: #pairs x 2, different ids.
   std::vector<std::array<int, 2>> excluded_bodies;
 
-  // Static vertices (#V flags): they stay where they are, x_t1 = x_t0 in every call (else the call throws, naming the
-  // vertex). Pairs all of whose vertices are static are left out. Boxes and tree of the primitives all of whose vertices
-  // are static are kept from call to call until one of these vertices is found elsewhere.
+  // Static vertices (#V flags): they stay where they are, x_t1 = x_t0 in every call (else the call throws,
+  // naming the vertex; steps of listed or close pairs do not look). Pairs all of whose vertices are static
+  // are left out. Boxes and tree of the primitives all of whose vertices are static are kept from call to
+  // call until one of these vertices is found elsewhere.
   std::vector<bool> static_vertices;
 
-  // Bits of the groups that each vertex is in, and of those that it meets (#V values each, both or none). Primitives
-  // have the bits of all of their vertices, and meet if each is in a group that the other one meets.
+  // Bits of the groups that each vertex is in, and of those that it meets (#V values each, both or none).
+  // Primitives have the bits of all of their vertices, and meet if each is in a group that the other one
+  // meets.
   std::vector<std::uint32_t> groups, masks;
 
-  // Vertices that are at one place, exactly, at both ends of a motion count as one in it, as the copies of a seam's
-  // vertices do: pairs with one of them on each side are left out as if they shared a vertex. Distances at one time
-  // (close_pairs) are those of a motion that stays there.
+  // Vertices that are at one place, exactly, at both ends of a motion count as one in it, as the copies of a
+  // seam's vertices do: pairs with one of them on each side are left out as if they shared a vertex.
+  // Distances at one time (close_pairs) are those of a motion that stays there.
   bool weld = false;
   // Vertices that count as one wherever they are, as copies that drift apart: #pairs x 2, different ids.
   // duplicate_vertices() finds them.
   std::vector<std::array<int, 2>> excluded_vertices;
 
-  // These very pairs, in every call and at any distance: they may pass through each other from now on. Such as those
-  // that check() finds touching at the start. `vertices` are not looked at.
+  // These very pairs, in every call and at any distance: they may pass through each other from now on. Such
+  // as those that check() finds touching at the start. `vertices` are not looked at.
   std::vector<Pair> excluded_pairs;
   // The same for an edge and a face, in intersections(), has_intersections() and check().
   std::vector<Intersection> excluded_intersections;

@@ -1,4 +1,4 @@
-// Marks what a shared library shows.
+// ONSET_API marks what the shared library shows; all else stays hidden.
 #pragma once
 
 #if defined(_WIN32)

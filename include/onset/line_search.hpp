@@ -18,19 +18,19 @@ struct LineSearchOptions : Options {
   LineSearchOptions(const Options& options)
       : Options(options) {}
 
-  // In [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its separation), or all but
-  // what is beyond the larger of d_hat and the tolerance, so that steps along one direction approach a contact as a
-  // sequence t_i < t_i+1 and never reach it, and from every result the next step is > 0.
+  // In [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its separation), or
+  // all but what is beyond the larger of d_hat and the tolerance, so that steps along one direction approach
+  // a contact as a sequence t_i < t_i+1 and never reach it, and from every result the next step is > 0.
   double gap_share = 0.2;
-  // Model length. > 0: close_pairs can be asked for; 0: it cannot, and nothing is held for it.
+  // Model length, >= 0. > 0: close_pairs can be asked for; 0: it cannot, and nothing is held for it.
   double d_hat = 0;
 };
 
 // `step` is the largest safe one.
 struct LineSearchStep : StepResult {
-  // The share of its gap that every pair is sure to keep, once positions are rounded to stored doubles: the one asked
-  // for unless gap_share_reduced. A gap of less than 2 rounding / (1 - gap_share) may not keep it all: the share is
-  // cut, and `closest` names the pair.
+  // The share of its gap that every pair is sure to keep, once positions are rounded to stored doubles: the
+  // one asked for unless gap_share_reduced. A gap of less than 2 rounding / (1 - gap_share) may not keep it
+  // all: the share is cut, and `closest` names the pair.
   double gap_share = 0;
   bool gap_share_reduced = false;
   // False where a gap has no room for rounding at all, so that the step is 0 (Outcome::below_rounding); raise
@@ -39,15 +39,16 @@ struct LineSearchStep : StepResult {
   std::optional<Pair> closest;
 };
 
-// Answers every question of a line search along one direction from one broad phase: its candidate pairs are held.
+// Answers all questions of a line search along one direction from one broad phase, whose candidates it holds.
 //
 // Guarantee: as compute_collision_free_stepsize, for every step size asked.
-// Memory: 8 bytes a pair that single precision could not certify as free of contact for the whole direction; with a
-// d_hat, 8 more a pair that it could not certify as staying beyond d_hat, and 24 a vertex.
+// Memory: 8 bytes a pair that single precision could not certify as free of contact for the whole direction;
+// with a d_hat, 8 more a pair that it could not certify as staying beyond d_hat, and 24 a vertex.
 // Const calls are safe from several threads.
 //
-// Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo 2021 (onset/step_size.hpp), section 7.2 and Algorithm 4:
-// d = p d_i, with p = gap_share.
+// Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo, "A Large-Scale Benchmark and an Inclusion-Based
+// Algorithm for Continuous Collision Detection", ACM Transactions on Graphics 40(5), 2021, section 7.2 and
+// Algorithm 4: d = p d_i, with p = gap_share. d_hat: Li et al. 2020 (onset/close_pairs.hpp).
 class ONSET_API LineSearch {
  public:
   // Holds nothing: its calls throw std::logic_error.
@@ -59,15 +60,17 @@ class ONSET_API LineSearch {
   LineSearch(LineSearch&&) noexcept;
   LineSearch& operator=(LineSearch&&) noexcept;
 
-  // Computes the largest step in [0, upper] that is free of contact, in exact motion and once rounded to stored
-  // doubles. StepResult::toi is infinite where there is no contact up to `upper`.
+  // Computes the largest step in [0, upper] that is free of contact, in exact motion and once rounded to
+  // stored doubles. StepResult::toi is infinite where there is no contact up to `upper`.
   // upper: in [0, 1], else throws std::invalid_argument.
   LineSearchStep largest_step(double upper = 1) const;
 
-  // Finds every pair whose exact distance at x_t0 + step dx is below d_hat plus its separation, both in exact arithmetic
-  // and as any order of rounding stores it; a pair beyond by no more than twice StepResult::rounding may be listed as
-  // well. Weights and distances are those of the stored x_t0(v, a) + step * dx(v, a).
-  // step: in [0, 1], else throws std::invalid_argument; also one that largest_step did not allow.
+  // Finds every pair whose distance at x_t0 + step dx is below d_hat plus its separation, in exact arithmetic
+  // or as any of the orders of operations that docs/steps.md names stores it; a pair beyond by no more than
+  // twice StepResult::rounding may be listed as well. Weights and distances are those of the stored
+  // x_t0(v, a) + step * dx(v, a).
+  // step: in [0, 1], also one that largest_step did not allow.
+  // Throws std::invalid_argument for another step, and where there is no d_hat.
   ClosePairs close_pairs(double step) const;
 
   // Pairs held for largest_step and for close_pairs.

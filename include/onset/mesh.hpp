@@ -1,4 +1,4 @@
-// What can touch: vertices, edges and faces, and the rules of who may meet whom; checked once, shared by every call.
+// What can touch: vertices, edges and faces, and the rules of who may meet whom.
 #pragma once
 
 #include <array>
@@ -17,12 +17,13 @@ struct MeshData;  // scene/mesh_data.hpp
 
 // A mesh of any mixture of faces, edges of no face (wires) and vertices of no element (points).
 //
-// Tested are vertices against faces and edges against edges. Two points, or a point and a wire, pass one another without
-// touching unless aimed exactly: they are tested against each other where they are declared (CollisionRules::points), as
-// those that must keep a distance should be.
+// Tested are vertices against faces and edges against edges. Two points, or a point and a wire, pass one
+// another without touching unless aimed exactly: they are tested against each other where they are declared
+// (CollisionRules::points), as those that must keep a distance should be.
 //
-// Immutable but for the two set_ functions. Const calls from any number of threads are safe, a set_ function with any
-// other call is not. Copies share their data until one of them is changed.
+// Checked once, shared by every call. Immutable but for the two set_ functions. Const calls from any number
+// of threads are safe, a set_ function with any other call is not. Copies share their data until one of them
+// is changed.
 class ONSET_API Mesh {
  public:
   // Of no vertices: to be assigned to.
@@ -35,10 +36,11 @@ class ONSET_API Mesh {
   ~Mesh() = default;
 
   // vertices: #V, the number of rows of every positions matrix.
-  // edges: #E x 2, faces: #F x 3, ids of vertices. An edge given twice is two edges: the pairs of both are listed.
-  // Throws std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, a wrong number of
-  // columns, a face that has an edge which `edges` lacks, as its contacts would be lost (complete_edges adds them), or
-  // what is wrong with the rules.
+  // edges: #E x 2, faces: #F x 3, ids of vertices. An edge given twice is two edges: the pairs of both are
+  // listed.
+  // Throws std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, a wrong
+  // number of columns, a face that has an edge which `edges` lacks, as its contacts would be lost
+  // (complete_edges adds them), or what is wrong with the rules.
   Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces, const CollisionRules& rules = {});
   // As above with edges derived from the faces: onset::edges(faces), the order of igl::edges.
   Mesh(std::ptrdiff_t vertices, const Indices& faces, const CollisionRules& rules = {});
@@ -46,24 +48,28 @@ class ONSET_API Mesh {
   Mesh(const Positions& rest, const Indices& edges, const Indices& faces, const CollisionRules& rules = {});
   Mesh(const Positions& rest, const Indices& faces, const CollisionRules& rules = {});
 
-  // Replaces the rules. Throws std::invalid_argument naming the rule and the row, and then leaves the mesh as it was.
-  // O(#V + #E + #F), n log n with bodies.
+  // Replaces the rules. Throws std::invalid_argument naming the rule and the row, and then leaves the mesh as
+  // it was. O(#V + #E + #F), n log n with bodies.
   void set_rules(const CollisionRules& rules);
   const CollisionRules& rules() const;
 
   std::ptrdiff_t num_vertices() const;
-  std::ptrdiff_t num_edges() const;  // with those of length zero that points are
+  // With those of length zero that points are.
+  std::ptrdiff_t num_edges() const;
   std::ptrdiff_t num_faces() const;
-  std::ptrdiff_t num_points() const;  // those that the rules declare
+  // Those that the rules declare.
+  std::ptrdiff_t num_points() const;
   std::array<int, 2> edge(std::ptrdiff_t row) const;
   std::array<int, 3> face(std::ptrdiff_t row) const;
 
-  // The connected parts of edges and faces as bodies (#V ids, for CollisionRules::bodies), numbered by their first
-  // vertex; a point is a body.
+  // The connected parts of edges and faces as bodies (#V ids, for CollisionRules::bodies), numbered by their
+  // first vertex; a point is a body.
   std::vector<int> components() const;
-  int num_bodies() const;  // the largest id + 1
+  // The largest body id of the rules that are set, plus 1.
+  int num_bodies() const;
   int body(std::ptrdiff_t vertex) const;
-  // One value a body (num_bodies() of them) as one value a vertex.
+  // One value a body (num_bodies() of them) as one value a vertex, for the bodies of the rules that are set
+  // already: set CollisionRules::bodies before asking for flags of its bodies.
   template <class T>
   std::vector<T> of_bodies(const std::vector<T>& values) const {
     std::vector<T> each(static_cast<std::size_t>(num_vertices()));
@@ -75,8 +81,9 @@ class ONSET_API Mesh {
   // Which pairs remain and what left the others out.
   const FilterCounts& filter_counts() const;
 
-  // Where this is the surface of a full (tetrahedral) mesh: the full mesh's vertex of each vertex (#V different ids in
-  // [0, full_vertices)). All positions stay those of the surface; the functions below map between the two.
+  // Where this is the surface of a full (tetrahedral) mesh: the full mesh's vertex of each vertex (#V
+  // different ids in [0, full_vertices)). All positions stay those of the surface; the functions below map
+  // between the two.
   // Throws std::invalid_argument naming the row.
   void set_full_vertices(const std::vector<int>& ids, std::ptrdiff_t full_vertices);
   std::ptrdiff_t num_full_vertices() const;
@@ -87,8 +94,8 @@ class ONSET_API Mesh {
   // x y z of each surface vertex, out of the full mesh's positions: `Positions(p.data(), num_vertices())`.
   std::vector<double> surface_positions(const Positions& full) const;
 
-  // Frees the trees of the latest calls, their order and memory, which a mesh keeps for the next call on it. That gives
-  // the same bytes with and without. Safe to call at any time.
+  // Frees the trees of the latest calls, their order and memory, which a mesh keeps for the next call on it.
+  // That gives the same bytes with and without. Safe to call at any time.
   void release_memory() const;
 
   const MeshData& data() const { return *data_; }
@@ -99,7 +106,8 @@ class ONSET_API Mesh {
   std::shared_ptr<const MeshData> data_;
 };
 
-// Lists the undirected edges of `faces`, each once, in the order of igl::edges: by the larger id, then the smaller.
+// Lists the undirected edges of `faces`, each once, in the order of igl::edges: by the larger id, then the
+// smaller.
 ONSET_API std::vector<std::array<int, 2>> edge_list(const Indices& faces);
 // `edges`, followed by the edges of `faces` that are not among them, in that order.
 ONSET_API std::vector<std::array<int, 2>> complete_edge_list(const Indices& edges, const Indices& faces);

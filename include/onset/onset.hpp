@@ -1,4 +1,4 @@
-// Everything a simulator includes.
+// All public headers but those in onset/compat/.
 #pragma once
 
 #include <onset/active_set.hpp>

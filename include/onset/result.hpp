@@ -18,7 +18,8 @@ struct Pair {
   PairKind kind = PairKind::vertex_face;
   // vertex_face: a is the vertex, b the face. edge_edge: edges, a < b.
   int a = -1, b = -1;
-  // vertex_face: v, f0, f1, f2. edge_edge: a0, a1, b0, b1; a point (CollisionRules::points) has the same twice.
+  // vertex_face: v, f0, f1, f2. edge_edge: a0, a1, b0, b1; a point (CollisionRules::points) has the same
+  // twice.
   std::array<int, 4> vertices{-1, -1, -1, -1};
 };
 
@@ -51,20 +52,23 @@ ONSET_API const char* to_string(PairOutcome outcome);
 enum class Outcome : std::uint8_t {
   // No pair has a contact, nor limits the step; pairs that part from within the separation may be there.
   free,
-  // A pair comes into contact; of a line search: or loses its share of a gap.
+  // A pair comes into contact; of a line search: or loses its share of a gap. Not with a step of 0
+  // (below_rounding then).
   contact,
   // A pair touches, or is closer than the separation, at t = 0, and is not certified to part: step 0.
   initial_contact,
-  // The pair that limits the step spent Options::max_checks: free until then, undecided after.
+  // The pair that limits the step spent Options::max_checks: free until then, undecided after. Not with
+  // a step of 0 (below_rounding then).
   max_checks,
-  // A pair comes, or starts, so close that storing positions in doubles could close its gap. The step ends before
-  // that, at 0 where the gap is too small from the start. StepResult::toi says whether the exact motion touches.
+  // A pair comes, or starts, so close that storing positions in doubles could close its gap. The step ends
+  // before that, at 0 where the gap is too small from the start. StepResult::toi says whether the exact
+  // motion touches.
   below_rounding,
   // A position is NaN or infinite, or beyond 2^1020 in magnitude: step 0, `vertex` names the first.
   non_finite,
   out_of_range,
-  // The call ended early (Options: budgets of one call, progress). Pairs that were not looked at may touch at any
-  // time: step 0 (compute_cfl_stepsize: what the distances allow).
+  // The call ended early (Options: budgets of one call, progress). Pairs that were not looked at may touch at
+  // any time: step 0 (compute_cfl_stepsize: what the distances allow).
   out_of_time,
   out_of_memory,
   out_of_checks,
@@ -83,79 +87,88 @@ enum class Certainty : std::uint8_t {
 };
 ONSET_API const char* to_string(Certainty certainty);
 
-// A pair that is not certified free on a step, where and how it touches. Times are in [0, 1], in units of the step;
-// lengths in model length.
+// A pair that is not certified free on a step, where and how it touches. Times are in [0, 1], in units of the
+// step; lengths in model length.
 struct Contact : Pair {
   // Certified: the pair is apart on [0, toi). Never later than the exact time. Infinite where it is free.
   double toi = INFINITY;
-  // By then the pair has touched: finite only where that is certain. With a separation it is infinite unless the pair
-  // touches at the start: that it comes as close is certain, by when is not told. Exactness::exact, separation 0: toi
-  // and toi_hi of the earliest contact are adjacent doubles or one double; which others are depends on the window and
-  // the budgets.
+  // By then the pair has touched: finite only where that is certain. With a separation it is infinite unless
+  // the pair touches at the start: that it comes as close is certain, by when is not told. Exactness::exact,
+  // separation 0: toi and toi_hi of the earliest contact are adjacent doubles or one double; which others are
+  // depends on the window and the budgets.
   double toi_hi = INFINITY;
-  // How far the pair lets a step go: toi; of initial_separating the next contact, infinite where there is none.
+  // How far the pair lets a step go: toi; of initial_separating the next contact, infinite where there is
+  // none.
   double step_limit = INFINITY;
-  // Distance beyond the separation at which the pair was reported.
+  // Distance beyond the separation at which the pair was reported; 0, or nearly, where the time is exact.
   double tolerance = 0;
   PairOutcome outcome = PairOutcome::free;
   Certainty certainty = Certainty::within_tolerance;
 
-  // Whether `normal` is one of several, or its side is not known. False: it is the only one, as the gap resolves it or
-  // the pair touches inside both primitives. True: gap is below 2^-46 of the pair's size and a point at the boundary of
-  // its primitive (or the edges are parallel, or the face has no area); or the pair touches at t = 0 or is coplanar at
-  // all times. The normal is finite and unit all the same, and where the motion tells, speed has the sign it should.
+  // Whether `normal` is one of several, or its side is not known. False: it is the only one, as the gap
+  // resolves it or the pair touches inside both primitives. True: gap is below 2^-46 of the pair's size and a
+  // point at the boundary of its primitive (or the edges are parallel, or the face has no area); or the pair
+  // touches at t = 0 or is coplanar at all times. The normal is finite and unit all the same, and where the
+  // motion tells, speed has the sign it should.
   bool degenerate = false;
 
-  // The closest points at toi, p1 of the first primitive and p2 of the second, as weights of the four `vertices`:
-  // p1 - p2 = sum_k weights[k] x[vertices[k]], linear in the positions at any time. Clamped to the primitives,
-  // multiples of 2^-52; the first side's sum to 1, the second's to -1. Where several points are as close, as of
-  // parallel edges, any of them.
+  // The closest points at toi, p1 of the first primitive and p2 of the second, as weights of the four
+  // `vertices`: p1 - p2 = sum_k weights[k] x[vertices[k]], linear in the positions at any time. Clamped to
+  // the primitives, multiples of 2^-52; the first side's sum to 1, the second's to -1. Where several points
+  // are as close, as of parallel edges, any of them.
   std::array<double, 4> weights{};
-  // Unit, from p2 to p1 as the exact closest points lie, however close: where the first primitive came from. Where the
-  // two touch inside both primitives: the normal of the face, or of both edges, on the side that the pair was on just
-  // before toi, in exact arithmetic.
+  // Unit, from p2 to p1 as the exact closest points lie, however close: where the first primitive came from.
+  // Where the two touch inside both primitives: the normal of the face, or of both edges, on the side that
+  // the pair was on just before toi, in exact arithmetic.
   std::array<double, 3> normal{};
-  // |p1 - p2| (Euclidean, the separation not taken off): within 2^-46 of the pair's size of its distance at toi. The
-  // size is the largest corner difference at both ends of the step.
+  // |p1 - p2| (Euclidean, the separation not taken off): within 2^-46 of the pair's size of its distance at
+  // toi. The size is the largest corner difference at both ends of the step.
   double gap = 0;
-  // normal . (displacement of p1 - p2, these weights, in the whole step); < 0: closing. A contact that grazes has one of
-  // about 0; a pair within a separation that parts, no less than rounding below 0.
+  // normal . (displacement of p1 - p2, these weights, in the whole step); < 0: closing. A contact that grazes
+  // has one of about 0; a pair within a separation that parts, no less than rounding below 0.
   double speed = 0;
 };
 
 // What a closed edge and a closed face have in common.
 enum class IntersectionKind : std::uint8_t {
-  crossing,     // one point, inside the edge and inside the face: the edge goes through
-  touching,     // one point, an end of the edge or on the face's boundary among others
-  overlapping,  // a segment: the edge lies in the plane of the face, or along a face without area
+  // One point, inside the edge and inside the face: the edge goes through.
+  crossing,
+  // One point, which is an end of the edge or on the boundary of the face, or both.
+  touching,
+  // A segment: the edge lies in the plane of the face, or along a face without area.
+  overlapping,
 };
 ONSET_API const char* to_string(IntersectionKind kind);
 
 struct Intersection {
   int edge = -1, face = -1;
   IntersectionKind kind = IntersectionKind::crossing;
-  std::array<int, 5> vertices{-1, -1, -1, -1, -1};  // e0, e1, f0, f1, f2; a point (CollisionRules::points) twice
+  // e0, e1, f0, f1, f2; a point (CollisionRules::points) has the same e0 and e1.
+  std::array<int, 5> vertices{-1, -1, -1, -1, -1};
 };
 
 // What a call did. Filled by every call; cheap enough to be always on.
 struct Stats {
   // Pairs whose swept boxes overlap, where the call counted them (candidates).
   PairCounts swept;
-  // Pairs handed to the narrow phase; of these, left by the single-precision culls; that needed the inclusion root
-  // finder; that spent Options::max_checks; not certified free (of a step: or that storing positions limits).
+  // Pairs handed to the narrow phase; of these, left by the single-precision culls; that needed the inclusion
+  // root finder; that spent Options::max_checks; not certified free (of a step: or that storing positions
+  // limits).
   PairCounts candidates, after_culls, inclusion, gave_up, contacts;
   std::int64_t checks = 0, max_checks_of_a_pair = 0;
-  // [k]: candidates left by the culls that took 2^k checks or more, less than 2^(k + 1); the last: 2^15 or more.
+  // [k]: candidates left by the culls that took 2^k checks or more, less than 2^(k + 1); the last: 2^15 or
+  // more.
   std::array<std::int64_t, 16> checks_histogram{};
   // The first of the pairs with the most checks.
   std::optional<Pair> worst;
-  // Share of the pairs looked at, in [0, 1]: < 1 where a budget was spent.
+  // Share of the pairs looked at, in [0, 1]: 1 unless a budget was spent, and even then where the last report
+  // of progress cancelled the call.
   double looked_at = 1;
-  // Motion, boxes and tree; traversal and certificates, which are fused; order, contact points and normals of an
-  // active set; all.
+  // Motion, boxes and tree; traversal and certificates, which are fused; order, contact points and normals of
+  // an active set; all.
   double seconds_broad = 0, seconds_narrow = 0, seconds_contacts = 0, seconds_total = 0;
-  // Model length: Options::tolerance, or the relative one times `extent`; the largest distance beyond the separation at
-  // which a pair was reported.
+  // Model length: Options::tolerance, or the relative one times `extent`; the largest distance beyond the
+  // separation at which a pair was reported.
   double tolerance = 0, achieved_tolerance = 0;
   // R: the largest corner difference that an overlapping pair can have.
   double extent = 0;

@@ -11,37 +11,58 @@
 
 namespace onset {
 
-// The lemma. A point of a primitive is a convex combination of its vertices, so while every vertex stays
-// within r_i of where it was, the point made of the same weights stays within the largest r_i of the
-// primitive. The distance of a pair (A, B) therefore falls by at most max_A r_i + max_B r_i, on any path,
-// straight or not.
+// All rest on one lemma (docs/theory.md, L49): while every vertex stays within r_i of where it was, on any
+// path, the distance of a pair falls by at most the largest r_i of the one primitive plus that of the other.
 
-// r_i for every vertex (#V, model length, >= 0): whatever path each vertex takes, no pair comes as close as
-// its separation while |x_i(t) - x_i| <= r_i for all i. Pairs not listed in `close` were d_hat + separation
-// apart, so r_i < d_hat / 2 keeps them beyond; listed pairs were separation + gap apart, so r_i < gap / 2 for
-// their vertices does. Both are lowered by what storing x + s dx in doubles can add.
+// Computes r_i for every vertex, how far it may move before a check is due (#V values, model length, >= 0).
 //
-// x: the positions `close` was made for, with the same mesh. Throws std::invalid_argument where `close` has
-// an outcome, or pairs that are not of this mesh. 0 for the vertices of a pair that touches, or whose gap is no more than
-// storing can change it. Copies that CollisionRules::weld counts as one are taken to stay together. O(#V + pairs).
+// Guarantee: whatever path each vertex takes, no pair comes as close as its separation while |x_i(t) - x_i|
+// <= r_i for all i, nor where x + s dx is stored in any of the orders of operations that docs/steps.md names.
+// Half of the least gap of a vertex, or of d_hat, less what storing can change; 0 where a pair touches or has
+// no gap beyond that. O(#V + pairs).
+//
+// x: #V x 3, model length: the positions that `close` was made for.
+// close: all close pairs of this mesh, with a d_hat > 0 and the outcome free. Copies of vertices that
+// CollisionRules::weld counts as one are taken to stay together.
+// Throws std::invalid_argument for a wrong number of rows or columns, another outcome or d_hat, and naming a
+// pair that is not of this mesh.
+// Safe to call concurrently on one Mesh.
+//
+// Source: docs/theory.md, L49.
 ONSET_API std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close);
 
-// The largest s in [0, 1] with s |dx_i| <= r_i for all i (dx: #V x 3 as many rows as r has values, else
-// throws std::invalid_argument); 0 where dx is not finite. By the lemma the step s dx needs no collision
-// check. What is left for the next step without one is r_i - s |dx_i|.
+// Computes the largest s in [0, 1] with s |dx_i| <= r_i for all i, rounded down.
+//
+// Guarantee: by the lemma a step of s dx needs no collision check. What is left for the next step without one
+// is r_i - s |dx_i|. 0 where dx is not finite.
+//
+// r: as safe_distances gives it, or what is left of it.
+// dx: #V x 3, model length, as many rows as r has values, else throws std::invalid_argument.
+// Safe to call concurrently.
 ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 
-// A step by collision checks of the pairs in `close` alone (made for x_t0 with the same options) and, for all
-// others, by a bound of the Courant-Friedrichs-Lewy kind: they are d_hat + separation apart, no vertex moves
-// farther than s max |dx|, so by the lemma with r_i = s max |dx| they stay beyond for s < d_hat / (2 max
-// |dx|). No broad phase: O(#V + pairs). Never later than the exact first contact of the whole mesh; outcome
-// `free` with step < 1 means that the bound ended it, not a pair; toi is no later than either says. Where a budget of `options` is spent, the
-// step is that of safe_distances, which looks at no pair: > 0 unless a listed one has no gap to speak of. Where a mesh
-// welds (CollisionRules::weld) and copies part in this motion, the step is 0 and `vertex` one of them. Throws as
-// safe_distances.
+// Computes a step that is free of contact from the close pairs alone, without a broad phase: O(#V + pairs).
 //
-// gap_share in [0, 1): every pair, listed or not, keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as in
-// LineSearch, so that the next step is > 0.
+// The listed pairs are checked for collisions. All others are more than d_hat + separation apart, so that by
+// the lemma they stay beyond the separation for s < d_hat / (2 max |dx|), a bound of the
+// Courant-Friedrichs-Lewy kind.
+//
+// Guarantee: no contact of the whole mesh on [0, step], along the exact motion and as stored (StepResult),
+// and toi no later than the first one. Outcome `free` with step < 1: the bound ended it, not a pair. Where a
+// budget of `options` is spent, the step is that of safe_distances, which looks at no pair: > 0 unless a
+// listed one has no gap to speak of. Where copies that a mesh welds (CollisionRules::weld) part in this
+// motion, the step is 0 (initial_contact) and `vertex` is one of them.
+//
+// x_t0, x_t1: #V x 3, model length, the two ends of a linear motion; that static vertices stay is
+// not checked.
+// close: all close pairs of this mesh at x_t0, made with the same options.
+// gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as
+// in LineSearch, so that the next step is > 0.
+// Throws as safe_distances, and std::invalid_argument for options or gap_share out of range.
+// Safe to call concurrently on one Mesh.
+//
+// Source: Courant, Friedrichs, Lewy, "Ueber die partiellen Differenzengleichungen der mathematischen Physik",
+// Mathematische Annalen 100, 1928, for the kind of bound; docs/theory.md, L49.
 ONSET_API StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                           const ClosePairs& close, const Options& options = {}, double gap_share = 0.2);
 

@@ -11,18 +11,21 @@
 namespace onset {
 
 struct StepResult {
-  // In [0, 1]. x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step] along the exact motion, and at
-  // s = step, or any s in [shortest, step], also in whatever order of operations it is rounded to doubles.
+  // In [0, 1]. x_t0 + s (x_t1 - x_t0) is free of contact for all s in [0, step] along the exact motion, and
+  // at s = step, or any s in [shortest, step], also as rounded to doubles in any of the orders of operations
+  // that docs/steps.md names.
   double step = 0;
   // 0, unless a pair parts from a gap so small that storing the positions of a shorter step could close it.
   double shortest = 0;
-  // The earliest contact of the exact motion: never later, infinite where there is none. With Exactness::exact and
-  // separation 0 it is between toi and toi_hi, adjacent doubles or the same one. 0 where the call ended early.
+  // The earliest contact of the exact motion: never later, infinite where there is none. With
+  // Exactness::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one. 0 where
+  // the call ended early.
   double toi = 0;
-  // As Contact::toi_hi, of the earliest contact; infinite for the next contact of a pair that parts at the start.
+  // As Contact::toi_hi, of the earliest contact; infinite for the next contact of a pair that parts at the
+  // start.
   double toi_hi = INFINITY;
-  // Model length: more than storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance (docs/steps.md). A pair
-  // whose gap at x_t0 is more than twice this never gets a step of 0.
+  // Model length: more than storing x_t0 + step (x_t1 - x_t0) in doubles can change a distance
+  // (docs/steps.md). A pair whose gap at x_t0 is more than twice this never gets a step of 0.
   double rounding = 0;
   Outcome outcome = Outcome::free;
   // Of the earliest contact of the exact motion, of the limiting pair as a rule.
@@ -36,40 +39,46 @@ struct StepResult {
 
 // Computes the largest step from x_t0 towards x_t1 that is certainly free of contact.
 //
-// Guarantee: no contact on [0, step] along the exact linear motion, nor at the positions that are stored (StepResult);
-// step > 0 wherever every pair starts apart by more than twice StepResult::rounding. The same bytes for any number of
-// threads and any instruction set.
+// Guarantee: no contact on [0, step] along the exact linear motion, nor at the positions that are stored
+// (StepResult); step > 0 wherever every pair starts apart by more than twice StepResult::rounding. The same
+// bytes for any number of threads and any instruction set.
 //
 // mesh: topology and rules.
-// x_t0, x_t1: #V x 3, model length, the two ends of the motion. x_t0 is assumed to be free of intersections: check()
-//   (onset/check.hpp) tells. A pair that touches there blocks the step.
+// x_t0, x_t1: #V x 3, model length, the two ends of the motion. x_t0 is assumed to be free of intersections
+// (check() in onset/check.hpp tells); a pair that touches there blocks the step.
 // options: accuracy, separation, budgets.
-// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out of range.
+// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out
+// of range.
 // Safe to call concurrently on one Mesh.
 //
-// Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo, "A Large-Scale Benchmark and an Inclusion-Based Algorithm
-// for Continuous Collision Detection", ACM Transactions on Graphics 40(5), 2021, section 7.2; docs/theory.md.
+// Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo, "A Large-Scale Benchmark and an Inclusion-Based
+// Algorithm for Continuous Collision Detection", ACM Transactions on Graphics 40(5), 2021, section 7.2;
+// docs/theory.md.
 ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_t0,
                                                      const Positions& x_t1, const Options& options = {});
 
 // Computes the step of pairs that the caller has chosen: found once, filtered, kept from call to call.
 //
-// Guarantee: as above, for the pairs listed; others are not looked at. The list must hold every pair that may touch, as
-// compute_candidates gives for this motion, or for one that contains it, and the same min_separation or more. A pair
-// that comes within the tolerance and never touches may limit this step and not that of the call without a list, which
-// does not look at pairs whose boxes are never at one place at one time.
+// Guarantee: as above, for the pairs listed; others are not looked at. The list must hold every pair that may
+// touch, as compute_candidates gives for this motion, or for one that contains it, and the same
+// min_separation or more. A pair that comes within the tolerance and never touches may limit this step and
+// not that of the call without a list, which does not look at pairs whose boxes are never at one place at one
+// time.
 //
-// candidates: pairs by id, in any order; counts and statistics are not used.
-// gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0, as in LineSearch, so that the next step is > 0.
-// Throws as above, and std::invalid_argument naming the row for an id out of range or a pair that shares a vertex.
+// candidates: pairs by id, in any order. Nothing else of it is used, its outcome neither: the empty list that
+// a spent budget left limits nothing.
+// gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0, as in LineSearch, so that the next
+// step is > 0.
+// Throws as above (but does not notice a static vertex that moves), and std::invalid_argument for gap_share
+// out of range, or naming the row for an id out of range or a pair that shares a vertex.
 // Safe to call concurrently on one Mesh.
 ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& candidates,
                                                      const Positions& x_t0, const Positions& x_t1,
                                                      const Options& options = {}, double gap_share = 0);
 
-// Tells whether the whole exact motion, both ends included, is certified free of contact. Stops at the first pair that
-// is not. Pairs that start within the separation and part do not count. False also where that is not known: positions
-// that are not usable, a spent budget.
+// Tells whether the whole exact motion, both ends included, is certified free of contact. Stops at the first
+// pair that is not. Pairs that start within the separation and part do not count. False also where that is
+// not known: positions that are not usable, a spent budget.
 //
 // Parameters, errors, thread safety: as compute_collision_free_stepsize.
 ONSET_API bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,

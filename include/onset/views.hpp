@@ -9,16 +9,20 @@
 
 namespace onset {
 
-// #V x 3 positions (model length), one row a vertex. Built implicitly from any Eigen matrix (column- or
-// row-major, a Map, a block, float or double), from a flat vector of 3 #V degrees of freedom (x y z of vertex
-// 0, x y z of vertex 1, ...), or from interleaved memory. Dense double storage is viewed without a copy and
-// must outlive the call; anything else (expressions such as `x + dx`, float matrices) is evaluated into a
-// copy that the view owns.
+// #V x 3 positions (model length), one row a vertex.
+//
+// Guarantee: dense double storage is viewed without a copy and must outlive the view, which in a call means
+// the call; anything else (expressions such as `x + dx`, float matrices) is evaluated into a copy that the
+// view owns. Nothing is checked here: the call that gets the view throws std::invalid_argument for a wrong
+// shape. Reading a view is safe from several threads.
 class Positions {
  public:
+  // From interleaved memory: xyz of vertex 0, xyz of vertex 1, ..., 3 `vertices` doubles.
   Positions(const double* xyz, std::ptrdiff_t vertices)
       : data_(xyz), rows_(vertices), cols_(3), row_stride_(3), col_stride_(1) {}
 
+  // From any Eigen matrix (column- or row-major, a Map, a block, float or double) of #V x 3, or from a flat
+  // vector of 3 #V degrees of freedom (x y z of vertex 0, x y z of vertex 1, ...).
   template <class Derived>
   Positions(const Eigen::DenseBase<Derived>& m) {  // NOLINT: implicit by design
     constexpr bool viewable = std::is_same_v<typename Derived::Scalar, double> &&
@@ -37,9 +41,10 @@ class Positions {
   }
 
   std::ptrdiff_t rows() const { return rows_; }
+  // 3, or what the caller passed by mistake.
   std::ptrdiff_t cols() const {
     return cols_;
-  }  // 3, or what the caller passed by mistake: checked by the callee
+  }
   double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const {
     return data_[row * row_stride_ + col * col_stride_];
   }
@@ -53,7 +58,7 @@ class Positions {
               std::ptrdiff_t col_stride) {
     data_ = data;
     if ((cols == 1 || rows == 1) && (rows * cols) % 3 == 0 &&
-        !(rows == 1 && cols == 3)) {  // flat degrees of freedom
+        !(rows == 1 && cols == 3)) {  // flat
       const std::ptrdiff_t stride = cols == 1 ? row_stride : col_stride;
       rows_ = rows * cols / 3, cols_ = 3, row_stride_ = 3 * stride, col_stride_ = stride;
     } else {
@@ -66,7 +71,8 @@ class Positions {
   std::ptrdiff_t rows_ = 0, cols_ = 3, row_stride_ = 3, col_stride_ = 1;
 };
 
-// #E x 2 or #F x 3 vertex ids, one row an element; from any Eigen matrix of integers. The view owns a copy.
+// #E x 2 or #F x 3 vertex ids, one row an element, from any Eigen matrix of integers. Guarantee: it owns a
+// copy. The mesh that gets it checks ids and shape.
 class Indices {
  public:
   Indices() = default;

@@ -1,7 +1,17 @@
 // The calls of ipc-toolkit's collision detection by their names there, so that code for it compiles after
-// changing an include and a namespace: ipc::compute_collision_free_stepsize becomes
-// onset::ipc::compute_collision_free_stepsize. 3D surfaces, linear motion. What onset says beyond a number
-// (outcome, limiting pair) is in onset/step_size.hpp.
+// changing an include and a namespace (ipc becomes onset::ipc). 3D surfaces and linear motion only. What
+// Onset says beyond a number (outcome, limiting pair) is in onset/step_size.hpp.
+//
+// Source: the collision detection of Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman,
+// "Incremental Potential Contact: Intersection- and Inversion-free, Large-Deformation Dynamics", ACM
+// Transactions on Graphics 39(4), 2020, as ipc-toolkit (https://github.com/ipc-sim/ipc-toolkit) offers it;
+// what computes it here is in docs/theory.md.
+//
+// Example:
+//   namespace ipc = onset::ipc;
+//   const ipc::CollisionMesh surface(x_t0, onset::edges(F), F);
+//   const double step = ipc::compute_collision_free_stepsize(surface, x_t0, x_t1);
+//   x = x_t0 + step * (x_t1 - x_t0);
 #pragma once
 
 #include <Eigen/Core>
@@ -18,26 +28,34 @@
 
 namespace onset::ipc {
 
-// Broad phases are chosen by name in ipc-toolkit and by Options here: a pointer to this is accepted and
-// ignored.
+// Broad phases are objects in ipc-toolkit and Options here: a pointer to this is accepted and ignored.
 class BroadPhase {};
 
-// What TightInclusionCCD takes there. tolerance: model length; max_iterations: checks a pair may cost; each
-// step keeps 1 - conservative_rescaling of every gap, so that the next one is not 0.
+// What TightInclusionCCD takes there, the root finder of Wang, Ferguson, Schneider, Jiang, Attene, Panozzo,
+// "A Large-Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection", ACM
+// Transactions on Graphics 40(5), 2021.
 struct TightInclusionCCD {
+  // Options::tolerance: model length, > 0.
   double tolerance = 1e-6;
+  // Options::max_checks: the checks that one pair may cost, >= 1.
   long max_iterations = 10000;
+  // In (0, 1]: each step keeps 1 - conservative_rescaling of every gap, so that the next one is not 0.
   double conservative_rescaling = 0.8;
 };
 using NarrowPhaseCCD = TightInclusionCCD;
 inline const TightInclusionCCD DEFAULT_NARROW_PHASE_CCD{};
 
 // A surface, and how it lies in a full (volume) mesh. Vertices are rows.
+//
+// The calls below take surface positions (#V x 3, model length), as vertices() returns them. Const calls are
+// safe from several threads where can_collide is.
 class CollisionMesh {
  public:
-  // Throws as onset::Mesh, where `edges` lacks one of a face too, as ipc-toolkit does.
-  // displacement_map: dim #V x dim #full or #V x #full, displacements of the full mesh to those of the
-  // surface; empty: the same. Edges that are empty are those of the faces.
+  // rest_positions: #V x 3, model length.
+  // edges: #E x 2, faces: #F x 3, ids of vertices. Empty edges are those of the faces.
+  // displacement_map: 3 #V x 3 #full or #V x #full, from displacements of the full mesh to those of the
+  // surface; empty: the surface is the full mesh.
+  // Throws as onset::Mesh, also where `edges` lacks one of a face, as ipc-toolkit does.
   CollisionMesh(const Eigen::MatrixXd& rest_positions, const Eigen::MatrixXi& edges = {},
                 const Eigen::MatrixXi& faces = {}, const Eigen::SparseMatrix<double>& displacement_map = {})
       : rest_(rest_positions),
@@ -57,7 +75,9 @@ class CollisionMesh {
     mesh_.set_rules(rules);
   }
 
-  // The surface's vertices are those of the full mesh that an edge or a face uses, in their order.
+  // Makes the surface of those vertices of the full mesh that an edge or a face uses, in their order.
+  // full_rest_positions: #full x 3, model length; edges, faces: ids of the full mesh.
+  // Throws std::invalid_argument for an id out of range, and as onset::Mesh.
   static CollisionMesh build_from_full_mesh(const Eigen::MatrixXd& full_rest_positions,
                                             const Eigen::MatrixXi& edges, const Eigen::MatrixXi& faces) {
     std::vector<int> surface(std::size_t(full_rest_positions.rows()), -1), full;
@@ -94,7 +114,7 @@ class CollisionMesh {
   std::size_t num_vertices() const { return std::size_t(rest_.rows()); }
   std::size_t num_edges() const { return std::size_t(edges_.rows()); }
   std::size_t num_faces() const { return std::size_t(faces_.rows()); }
-  // Vertices of no edge and no face, ascending: they collide with edges and each other, too.
+  // Vertices of no edge and no face, ascending: they collide with edges and with each other, too.
   const std::vector<int>& codim_vertices() const { return codim_vertices_; }
   std::size_t num_codim_vertices() const { return codim_vertices_.size(); }
   std::size_t ndof() const { return 3 * num_vertices(); }
@@ -105,7 +125,9 @@ class CollisionMesh {
   int dim() const { return 3; }
   int to_full_vertex_id(int vertex) const { return full_vertex_.at(std::size_t(vertex)); }
 
-  // The surface's part of full positions. Throws std::invalid_argument for a wrong number of rows.
+  // vertices: surface positions of full positions (#full x 3). The other two take displacements of the full
+  // mesh (#full x 3) and give surface positions and displacements of the surface.
+  // Throws std::invalid_argument for a wrong number of rows or columns.
   Eigen::MatrixXd vertices(const Eigen::MatrixXd& full_positions) const {
     require(full_positions, full_rest_.rows());
     return map_.size() ? displace_vertices(full_positions - full_rest_) : chosen(full_positions);
@@ -123,16 +145,16 @@ class CollisionMesh {
     return Eigen::Map<const RowMajor>(x.data(), rest_.rows(), 3);
   }
 
-  // A gradient (ndof) or Hessian (ndof x ndof) of the surface's dofs (x y z of vertex 0, ...) in those of the
-  // full mesh.
+  // Takes a gradient (ndof) or a Hessian (ndof x ndof) from the surface's degrees of freedom (x y z of vertex
+  // 0, ...) to those of the full mesh.
   Eigen::VectorXd to_full_dof(const Eigen::VectorXd& x) const { return to_full().transpose() * x; }
   Eigen::SparseMatrix<double> to_full_dof(const Eigen::SparseMatrix<double>& hessian) const {
     const Eigen::SparseMatrix<double> m = to_full();
     return Eigen::SparseMatrix<double>(m.transpose() * hessian * m);
   }
 
-  // Whether two vertices may collide; empty: all. A pair of primitives is left out where none of its pairs of
-  // vertices may. Asked once for each pair that Candidates::build finds, on its thread.
+  // Whether two vertices may collide; empty: all may. A pair of primitives is left out where none of its
+  // pairs of vertices may. Candidates::build and has_intersections ask it on the caller's thread.
   std::function<bool(std::size_t, std::size_t)> can_collide;
 
   const onset::Mesh& onset_mesh() const { return mesh_; }
@@ -172,7 +194,7 @@ class CollisionMesh {
   onset::Mesh mesh_;
 };
 
-// tolerance, max_iterations and min_distance as Options.
+// Makes Options of what ipc-toolkit passes.
 inline Options options_of(double min_distance, const NarrowPhaseCCD& ccd) {
   Options o;
   o.min_separation = min_distance;
@@ -194,15 +216,21 @@ struct FaceVertexCandidate {
   int face_id, vertex_id;
 };
 
-// Pairs whose boxes, inflated by inflation_radius, meet during the motion, less those that can_collide leaves
-// out: data, sorted. The free functions below do not need it.
+// Pairs whose boxes meet during a motion, less those that can_collide leaves out: data, sorted. The free
+// functions below do not need it.
 class Candidates {
  public:
-  std::vector<VertexVertexCandidate> vv_candidates;  // of codim_vertices
-  std::vector<EdgeVertexCandidate> ev_candidates;    // the same, with any edge
+  // Of two codim_vertices.
+  std::vector<VertexVertexCandidate> vv_candidates;
+  // Of one of them and any edge.
+  std::vector<EdgeVertexCandidate> ev_candidates;
   std::vector<EdgeEdgeCandidate> ee_candidates;
   std::vector<FaceVertexCandidate> fv_candidates;
 
+  // Finds all pairs whose boxes, each wider by inflation_radius (model length, >= 0), meet during the motion.
+  // vertices_t0, vertices_t1: surface positions, the two ends of the motion; one: where they stand.
+  // Throws std::runtime_error for NaN, infinities and |x| > 2^1020, std::invalid_argument for a wrong number
+  // of rows.
   void build(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
              const Eigen::MatrixXd& vertices_t1, double inflation_radius = 0, const BroadPhase* = nullptr) {
     clear();
@@ -243,7 +271,8 @@ class Candidates {
   bool empty() const { return size() == 0; }
   void clear() { *this = {}; }
 
-  // In [0, 1]: never later than the first contact of these pairs.
+  // As the free functions of these names below, for these pairs alone. Throws std::invalid_argument for ids
+  // that the mesh does not have; NaN gives 0 and false.
   double compute_collision_free_stepsize(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
                                          const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                          const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
@@ -280,8 +309,18 @@ class Candidates {
   }
 };
 
-// A step in [0, 1] from vertices_t0 towards vertices_t1 (surface positions) that is free of contact, and
-// leaves room for the next one (conservative_rescaling). NaN and the like: 0.
+// Computes a step in [0, 1] from vertices_t0 towards vertices_t1 that is free of contact and leaves room for
+// the next one (conservative_rescaling).
+//
+// Guarantee: no pair comes as close as min_distance, along the exact motion x0 + s dx, s in [0, step], and as
+// the end of that is stored, with dx = vertices_t1 - vertices_t0 rounded to doubles (vertices_t1 itself,
+// where can_collide is set). NaN and the like: 0, or Candidates::build throws, where can_collide is set.
+//
+// vertices_t0, vertices_t1: #V x 3, surface positions; vertices_t0 is assumed to be free of intersections.
+// min_distance: model length, >= 0.
+// Throws std::invalid_argument for a wrong number of rows, and for min_distance and values of `ccd` out of
+// range.
+// Safe to call concurrently on one mesh where can_collide is.
 inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
                                               const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                               const BroadPhase* broad_phase = nullptr,
@@ -296,8 +335,10 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
   return LineSearch(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0), options).largest_step().step;
 }
 
-// Whether an edge and a face without a common vertex have a common point, exactly; a touch is one. Also true
-// for NaN.
+// Tells, exactly, whether an edge and a face without a common vertex have a common point; a touch is one.
+// Also true for NaN.
+//
+// Parameters, errors, thread safety: as compute_collision_free_stepsize.
 inline bool has_intersections(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices,
                               const BroadPhase* = nullptr) {
   const onset::Mesh& all = mesh.onset_mesh();
@@ -312,6 +353,9 @@ inline bool has_intersections(const CollisionMesh& mesh, const Eigen::MatrixXd& 
   return found.outcome != Outcome::free || std::any_of(found.begin(), found.end(), may);
 }
 
+// Tells whether the whole exact motion is certified free of contact. False also where that is not known.
+//
+// Parameters, errors, thread safety: as compute_collision_free_stepsize.
 inline bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
                                    const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                    const BroadPhase* broad_phase = nullptr,
