@@ -1,5 +1,5 @@
-// Assertions of what the code around them relies on: on where ONSET_ASSERTS is defined (CMake option ONSET_ASSERTS; Debug builds), else
-// not evaluated.
+// Assertions of what the code around them relies on. They are on where ONSET_ASSERTS is defined (the CMake
+// option of that name, Debug builds); elsewhere they are not evaluated.
 #pragma once
 
 namespace onset {

@@ -1,4 +1,4 @@
-// The only place that includes TBB.
+// Parallel loops, arenas and sorts; no other file includes TBB.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -10,7 +10,7 @@
 
 namespace onset {
 
-// f(first, last) over [0, count) in chunks of about `grain`, in the current arena.
+// Calls f(first, last) on chunks of about `grain` that cover [0, count), in the current arena.
 template <class F>
 void parallel_ranges(std::size_t count, std::size_t grain, F&& f) {
   if (count <= grain) {
@@ -21,7 +21,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, F&& f) {
                     [&](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
 }
 
-// f() in the caller's arena (threads == 0) or in one of at most `threads`.
+// Calls f() in the caller's arena where threads == 0, else in an arena of at most `threads` threads.
 template <class F>
 void in_arena(int threads, F&& f) {
   if (threads == 0) {
@@ -32,9 +32,10 @@ void in_arena(int threads, F&& f) {
   }
 }
 
+// Returns how many threads the current arena may use.
 inline int current_threads() { return tbb::this_task_arena::max_concurrency(); }
 
-// A total order is required of `less`: the result is then independent of the number of threads.
+// Sorts; `less` must be a total order, so that the result is the same for any number of threads.
 template <class It, class Less>
 void parallel_sort(It first, It last, Less less) {
   tbb::parallel_sort(first, last, less);
