@@ -24,8 +24,8 @@ struct BroadPhaseInput {
   double t_max = 1;
   BoxTest test = BoxTest::both_ends;
   InstructionSet instruction_set = InstructionSet::automatic;
-  // In place of `inflation` for static primitives; < 0: the same. Their boxes stay with the mesh from call to
-  // call as long as this does not change.
+  // The inflation of static primitives; < 0: the same. The mesh keeps their boxes as long as it stays the
+  // same.
   double static_inflation = -1;
   // Whether only pairs of kEdgeFace are wanted, by the swept test; else both kinds that a step has.
   bool edges_against_faces = false;
@@ -43,18 +43,17 @@ inline bool is_wanted(const BroadPhaseInput& input, Primitive kind) {
 class BroadPhase : public PairSource {
  public:
   virtual const char* name() const = 0;
-  // Makes new boxes in the memory and order already there, for another motion, t_max, inflation or test over
-  // the same MeshData object and kinds of pairs. Afterwards it is as if made from `input`, up to the order of
-  // pairs.
+  // Makes new boxes in the memory and order already there, as if made from `input` up to the order of pairs.
+  // The MeshData object and the kinds of pairs must be the same.
   virtual void refit(const BroadPhaseInput& input) = 0;
-  // Says whether the order already there is about as good for this motion as it was for its own, so that a
-  // refit is worth it.
+  // Says whether the order there is about as good for this motion as for its own, so that a refit is worth
+  // it.
   virtual bool suits(const Motion&) const { return false; }
-  // Says whether boxes of static primitives were made now, not taken from an earlier call.
+  // Says whether boxes of static primitives were made, not taken from an earlier call.
   virtual bool made_static_boxes() const { return false; }
 };
 
-// Makes a broad phase. `input.mesh` and `input.motion` must outlive its use up to the next refit.
+// `input.mesh` and `input.motion` must outlive the result, or its use up to the next refit.
 std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input);
 
 }  // namespace onset

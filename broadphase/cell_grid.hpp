@@ -12,7 +12,7 @@ struct FloatBox {
   std::array<float, 3> lo, hi;
 };
 
-// A grid of 2^20 cells an axis around the origin, the outermost of which take all that lies beyond. The cell
+// 2^20 cells an axis around the origin; the outermost take all that lies beyond. The cell
 // of a coordinate is monotone in it, so boxes that overlap share the cell of the lower corner of their
 // intersection, where their pair is reported, once.
 class CellGrid {

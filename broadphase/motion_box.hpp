@@ -1,5 +1,4 @@
-// The boxes of a primitive at both ends of the motion, in doubles, and the tests on them that define
-// candidates.
+// The boxes of a primitive at both ends of its motion, in doubles, and the tests that define candidates.
 #pragma once
 
 #include <array>
@@ -10,7 +9,7 @@
 
 namespace onset {
 
-// Closed boxes of a primitive at t = 0 and at t_max, exact, or widened by its inflation and rounded outward.
+// Closed boxes at t = 0 and t_max, widened by the inflation and rounded outward; exact without one.
 struct MotionBox {
   std::array<double, 3> lo_t0, hi_t0, lo_t1, hi_t1;
 };
@@ -31,7 +30,7 @@ struct MotionBoxes {
 };
 MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind);
 
-// Says whether boxes overlap, as BoxTest defines it. All methods find exactly the pairs for which this holds.
+// Says whether boxes overlap by a test. This is the definition that all methods keep to.
 bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b);
 // Does the same for two primitives, by input.test.
 bool boxes_overlap(const BroadPhaseInput& input, PairKind kind, IdPair pair);

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int opposite(int row) { return (row + 3) % 6; }
 
-// Returns per lane how far one box, its supports `stride` floats apart, overlaps those of a block along one
-// of six directions: the larger value of both ends. Inlined even into large loops, since a call would pass
-// eight floats through memory.
+// Returns how far one box, its supports `stride` floats apart, overlaps each of a block along one of six
+// directions, at the end where that is more. Inlined even into large loops: a call would pass eight floats
+// through memory.
 template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block, int k) {
   const F8 reach = F8::all(box[opposite(k) * stride]) + F8::load(block + k * kLanes);
@@ -20,8 +20,7 @@ __attribute__((always_inline)) inline F8 overlap_along(const float* box, int str
   return max(F8::all(box[(6 + opposite(k)) * stride]) + F8::load(block + (6 + k) * kLanes), reach);
 }
 
-// Returns the smallest over the six directions. It is negative where an axis separates on one side at both
-// ends.
+// Returns the smallest of the six: negative where an axis separates on one side at both ends.
 template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap(const float* box, int stride, const float* block) {
   F8 least = overlap_along<kBothEnds>(box, stride, block, 0);
@@ -55,21 +54,20 @@ __attribute__((always_inline)) inline Reach reach(const float* box, int stride, 
   return r;
 }
 
-// Boxes that are apart at both ends, on different axes, may be together in between: boxes_overlap in
-// broadphase/motion_box.hpp decides in double, from when the last axis lets them meet and when the first
-// parts them. Here float decides where it leaves no doubt. With e (error_of), s + e and s - e bound the sum
-// of two supports of a linear FloatMap, and their roots bound its root up to 1 +- 11u, u being 2^-24 (1 +
-// 2^-20); kRootSlack is 16u (docs/theory.md, L33). That is far more than the slack in double, so what is
-// apart here is apart there, and what a node drops would be dropped pair by pair.
+// Boxes that are apart at both ends, on different axes, may be together in between. Floats decide here what
+// leaves them no doubt, boxes_overlap in broadphase/motion_box.hpp the rest. The roots of s + e and s - e
+// (error_of) bound those of the exact sums of supports through a linear FloatMap up to 11u, where u = 2^-24
+// (1 + 2^-20); kRootSlack is 16u (docs/theory.md, L33), far more than the slack in double. So what is apart
+// here is apart there, and what a node drops would be dropped pair by pair.
 
 constexpr float kRootSlack = 0x1p-20f, kFourRoundings = 0x1p-22f * (1 + 0x1p-10f), kLeast = 0x1p-100f;
 
-// The supports of two boxes along one of the six directions, at both ends.
+// The supports of two boxes in one of six directions, at both ends.
 struct Direction {
   F8 a0, a1, b0, b1;
 };
 
-// The times when boxes may be together: from the last root of a rising overlap to the first of a falling one.
+// When boxes may be together: from the last root of a rising overlap to the first of a falling one.
 struct Together {
   F8 begin = F8::all(0.0f), end = F8::all(1.0f);
 
@@ -93,8 +91,8 @@ inline int certainly_together(const Together& least) {
               least.begin * F8::all(1 + kRootSlack) + F8::all(kLeast));
 }
 
-// For lanes whose boxes overlap by the test of both ends: `apart` are those that are certainly apart
-// throughout, `unsure` those that are not certainly together.
+// Of lanes whose boxes overlap by the test of both ends, those that are certainly apart throughout, and those
+// that are not certainly together (where s - e < 0 at both ends, `least` ends where it begins).
 struct MovingBoxes {
   int apart, unsure;
 };

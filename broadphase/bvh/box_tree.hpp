@@ -21,12 +21,12 @@ const BvhKernel& bvh_kernel(InstructionSet kernel);
 
 class BoxTree {
  public:
-  // Takes the primitives listed, whose vertices must all have a rank. An `alone` tree is traversed only
-  // against itself and others of the same order; else vertices are told apart by ids, which all orders share.
+  // Takes the primitives listed, whose vertices must all have a rank. A tree that is traversed with one of
+  // another `order` must not be `alone`: its vertices then go by ids, which all orders share.
   BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order, bool alone);
 
-  // Makes the boxes, widened by `inflation` and thickness. `vertices` are supports by rank, widened alike;
-  // they are used where no primitive has a thickness of its own.
+  // Makes the boxes, widened by `inflation` and thickness. `vertices` are the supports by rank, widened
+  // alike, which suffice where there is no thickness.
   void fit(const BroadPhaseInput& input, double inflation, const FloatMap& map, const Supports& vertices);
 
   // Says whether the unions of all boxes of two fitted trees are apart.
@@ -35,7 +35,7 @@ class BoxTree {
   std::size_t units() const { return (blocks() + kBlock - 1) / kBlock; }
   const TreeView& view() const { return view_; }
   int rounded_axes() const { return rounded_axes_; }
-  // Says whether all supports are of motion boxes and, but for rounding to float, through a linear map.
+  // Says whether these are motion boxes through a map that was linear, but for rounding to float.
   bool linear() const { return linear_; }
 
  private:

@@ -12,13 +12,12 @@
 
 namespace onset {
 
-// A monotone map from coordinates to floats. Disjoint floats mean disjoint doubles and strictly overlapping
-// floats overlapping doubles, so no widening is needed; only equal floats leave it open (docs/theory.md,
-// L32). It never gives -0.
+// A monotone map from coordinates to floats, so that overlaps are kept without widening and only equal floats
+// leave them open (docs/theory.md, L32). It never gives -0.
 //
-// The map is linear, centred on the median and scaled by the spread, so that neither scale nor offset of the
-// scene nor a vertex that has flown off costs the bulk its resolution; what is too far out saturates. Where
-// that would not tell vertices apart (small clusters far from each other), it is piecewise linear between
+// It is linear, centred on the median and scaled by the spread, so that neither the scene's scale or offset
+// nor a vertex that has flown off costs the bulk its resolution; what is too far out saturates. Where that
+// would not tell vertices apart (small clusters far from each other), it is piecewise linear between
 // quantiles.
 class FloatMap {
  public:
@@ -27,18 +26,17 @@ class FloatMap {
 
   explicit FloatMap(const Motion& motion);
 
-  // Says whether it mostly tells the vertices of this motion apart. A map made for another motion is as
-  // correct, but may leave many pairs to be decided in double.
+  // Says whether it mostly tells the vertices of this motion apart. A map that does not is as correct, but
+  // leaves many pairs to be decided in double.
   bool suits(const Motion& motion) const;
 
   float operator()(double x, std::size_t axis) const {
     if (!knots_[axis].empty()) return between_knots(x, axis);
     return to_float((x - centre_[axis]) * scale_);
   }
-  // Says whether it is linear, but for rounding to float and as far as floats stay below kLargest.
+  // Says whether it is linear, but for rounding to float, where floats stay below kLargest.
   bool is_linear() const { return knots_[0].empty() && knots_[1].empty() && knots_[2].empty(); }
-  // Says whether y gives x back. Where this holds for all coordinates of a set, the map is one to one on
-  // them.
+  // Says whether y gives x back. The map is one to one on a set where this holds for all of it.
   bool inverts(float y, double x, std::size_t axis) const {
     return double(y) * inverse_ + centre_[axis] == x && knots_[axis].empty();
   }
@@ -57,8 +55,8 @@ class FloatMap {
   std::array<std::vector<double>, 4> knots_;  // ascending; empty: linear
 };
 
-// Supports of vertices, or of primitives where inflations differ: a record each (FitArguments::supports), and
-// a last one of kNowhere. For the swept test a record has one end, of the whole motion.
+// A record (FitArguments::supports) of each vertex, or primitive where inflations differ, and a last one of
+// kNowhere. For the swept test a record has one end, that of the whole motion.
 struct Supports {
   AlignedArray<float> records;
   // Without the last.

@@ -8,17 +8,15 @@
 
 namespace onset {
 
-// A float box is given by its supports: how far it reaches along -x -y -z +x +y +z, at the start of the
-// motion and then at its end. A swept box has 6 supports, a motion box 12. The union of boxes is the maximum
-// of their supports; two boxes are apart along an axis where a support of one and the opposite support of the
-// other have a negative sum. Blocks of eight boxes have a row of eight floats a support; unused lanes hold
-// kNowhere.
+// A box is given by its supports: how far it reaches along -x -y -z +x +y +z. A swept box has 6, a motion box
+// 12: those at the start, then those at the end. The union of boxes is the maximum of their supports; two
+// boxes are apart along an axis where opposite supports have a negative sum. A block of eight boxes has a row
+// of eight floats a support; unused lanes hold kNowhere.
 inline constexpr int kBlock = 8;
 inline constexpr float kNowhere = -0x1p126f;
 inline constexpr int kMaxLevels = 12;
 
-// Rows of a block and floats of a single box, indexed by whether boxes are motion boxes. There are no inline
-// functions here, as the linker could keep the AVX2 copy for everyone.
+// Indexed by whether boxes are motion boxes. (Of an inline function the linker could keep the AVX2 copy.)
 inline constexpr int kRowsOf[2] = {6, 12};
 inline constexpr int kBoxStrideOf[2] = {8, 16};
 
@@ -32,12 +30,12 @@ struct TreeView {
   int levels;
   // 8 a leaf block.
   const int* ids;
-  // Ranks or ids: a row of 8 for each vertex of a primitive, by leaf block.
+  // Ranks or ids; a row of 8 for each vertex of a primitive, a leaf block.
   const int* vertices;
-  // The PrimitiveKey::body (scene/primitive_filter.hpp) that all of a lane shares, or 0; eight a block. Null
-  // unless keys are compared.
+  // These are null unless keys are compared (scene/primitive_filter.hpp).
+  // The PrimitiveKey::body that all of a lane shares, or 0; eight a block.
   const int* bodies[kMaxLevels];
-  // Three rows of 8 a leaf block: flags, group, mask. Null unless keys are compared.
+  // Flags, group and mask: three rows of 8 a leaf block.
   const int* keys;
 };
 
@@ -58,9 +56,9 @@ struct TraverseArguments {
   TreeView query, tree;
   BoxTest test;
   Sides sides;
-  // Whether both are one tree of edges; each unordered pair is then found once.
+  // Whether both are one tree: each unordered pair is then found once.
   bool self;
-  // Whether both trees have bodies and keys, which are then tested.
+  // Whether both trees have keys, which are then compared.
   bool keyed;
   // Bit i: equal floats on axis i need not be equal doubles.
   int rounded_axes;

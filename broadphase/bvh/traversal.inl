@@ -24,8 +24,7 @@ struct Pairs {
 };
 
 // Descends two trees side by side. Every step is a loop over a list that writes the next list without
-// branches, eight entries at a time, of which it counts as many as the test says. A full list is emptied
-// downward first, so memory is constant.
+// branches, eight entries at a time. A full list is emptied downward first, so memory is constant.
 template <BoxTest kTest, Sides kSides, bool kSelf, bool kKeyed>
 class Traversal {
  public:
@@ -65,13 +64,12 @@ class Traversal {
     const float* box(unsigned slot) const { return block(slot / kBlock) + slot % kBlock; }
   };
 
-  // Returns the lanes of a block that lie wholly within `body`, where that is a body that does not meet
-  // itself.
+  // Returns the lanes of a block that lie wholly within this body, which does not meet itself.
   static int within(int body, const TreeView& tree, int level, unsigned block) {
     const I8 bodies = I8::load(tree.bodies[level] + std::size_t(block) * kBlock);
     return sign_bits((I8::all(body) == bodies) & bodies);
   }
-  // Returns the body of a whole block at `level`, which is a lane of the level above.
+  // A block is a lane of the level above.
   static int body_of(const TreeView& tree, int level, unsigned block) {
     return tree.bodies[level + 1][block];
   }
@@ -82,7 +80,6 @@ class Traversal {
     return {overlap<kBothEnds>(box, stride, block), F8{}, F8{}};
   }
 
-  // Returns the lanes of a block of nodes that may meet a box.
   int meeting(const float* box, int stride, const float* block) const {
     const Reach r = reach_of(box, stride, block);
     const int mask = ~sign_bits(r.at_both) & 0xff;
@@ -104,7 +101,7 @@ class Traversal {
     blocks_[level].count = 0;
   }
 
-  // Tests a whole block of the query against the children of a node above level 1.
+  // Tests a whole block of the query against the children of a node.
   void descend(int level) {
     const Pairs& from = blocks_[level];
     Pairs& to = blocks_[level - 1];
@@ -112,7 +109,7 @@ class Traversal {
       const int q = from.a[e], n = from.b[e];
       int mask = meeting(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n));
       if (kKeyed) mask &= ~within(body_of(t_.query, 1, unsigned(q)), t_.tree, level, unsigned(n));
-      if (kSelf) {  // pairs with what comes before q are found from there
+      if (kSelf) {  // nothing before q itself: that pair was found from there
         const int skip = (q >> 3 * (level - 2)) - n * kBlock;
         mask &= 0xff << (skip > 0 ? skip : 0);
       }
@@ -143,7 +140,7 @@ class Traversal {
   }
 
   // Returns the lanes of block b that may pair with child c of the query, so that each unordered pair is
-  // found once. A primitive itself goes later, as it shares its vertices.
+  // found once.
   static int unpaired(unsigned c, unsigned b) { return kSelf && c / kBlock == b ? 0xff << c % kBlock : 0xff; }
 
   void pair_children(int level) {
@@ -207,8 +204,8 @@ class Traversal {
     return t_.query.keys + std::size_t(slot / kBlock) * (3 * kBlock) + slot % kBlock;
   }
 
-  // Sets the sign of each lane whose key cannot meet that of c: keys_meet in scene/primitive_filter.hpp, but
-  // for static primitives, whose trees are never traversed with each other.
+  // Sets the sign of each lane whose key cannot meet that of c: keys_meet in scene/primitive_filter.hpp,
+  // without static against static, which is never traversed.
   I8 apart(unsigned c, unsigned b) const {
     const int *own = key_of(c), *keys = t_.tree.keys + std::size_t(b) * (3 * kBlock);
     const I8 bodies = I8::load(t_.tree.bodies[0] + std::size_t(b) * kBlock), none = I8::all(0);
@@ -229,15 +226,14 @@ class Traversal {
     return mask;
   }
 
-  // Returns the lanes of `mask` that signs in float may not decide: moving boxes that overlap at neither end,
-  // or only touch there; other boxes that touch, where some axis is rounded.
+  // Returns the lanes that signs in float may not decide: moving boxes that overlap at neither end or only
+  // touch there, other boxes that touch where an axis is rounded.
   static int in_doubt(int mask, const Reach& r, bool rounded) {
     if (kMoving) return mask == 0 ? 0 : mask & bits(r.at_start <= F8::all(0)) & bits(r.at_end <= F8::all(0));
     return rounded ? mask & bits(r.at_both == F8::all(0)) : 0;
   }
 
-  // Puts off the lanes in doubt, and returns them. Not inlined, as the loop that calls it has no register to
-  // spare.
+  // Puts off lanes in doubt and returns them. Not inlined: the loop that calls it has no register to spare.
   __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
     if (!kMoving)
       doubt &= touching<kBothEnds>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
@@ -246,7 +242,7 @@ class Traversal {
     return doubt;
   }
 
-  // Decides what is in doubt, eight pairs at a time in float where that will do, else in double.
+  // Decides what is in doubt, eight pairs at a time in float, the rest in double.
   void settle_doubtful() {
     const Leaves query(t_.query), tree(t_.tree);
     for (int first = 0; first < doubtful_.count; first += kLanes) {
@@ -264,7 +260,6 @@ class Traversal {
     doubtful_.count = 0;
   }
 
-  // Compares eight leaves with eight others, one pair a lane.
   MovingBoxes compare(const int* a, const int* b, int count) const {
     const Leaves query(t_.query), tree(t_.tree);
     const float *boxes_a[kLanes], *boxes_b[kLanes];

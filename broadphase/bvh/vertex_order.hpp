@@ -29,8 +29,8 @@ double roughness(const VertexOrder& order, const Motion& motion);
 VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices);
 
 // Fills ids[0..list.count) in the order of the lowest rank among their vertices, and many of one lowest rank
-// by the highest. Traversal times are within 5 % of those with a curve through the primitives' centres, at
-// the price of a counting sort.
+// by the highest. Traversal is within 5 % of that along a curve through their own centres, and ordering costs
+// a counting sort.
 void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
                       int* ids);
 

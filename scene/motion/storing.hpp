@@ -13,8 +13,7 @@ inline constexpr double kStoring = 18.5 * 0x1p-53;
 // Returns that bound, rounded up, for all pairs: a length of the model.
 double rounding_of_distances(const Motion& m);
 
-// Returns StepResult::rounding. A pair whose gap is more than twice this has a step > 0 (docs/theory.md,
-// L48).
+// Returns StepResult::rounding. A step is > 0 where all gaps are more than twice this (docs/theory.md, L48).
 inline double reported_rounding(double rounding_of_distances) { return rounding_of_distances * 11; }
 
 }  // namespace onset
