@@ -13,7 +13,7 @@ namespace onset {
 std::vector<std::vector<int>> shared_places(const Positions& x) {
   std::vector<int> order(std::size_t(x.rows()));
   std::iota(order.begin(), order.end(), 0);
-  const auto compare = [&](int v, int w) {  // by the numbers, so that -0 is 0
+  const auto compare = [&](int v, int w) {  // compares numbers, so that -0 equals 0
     for (int a = 0; a < 3; ++a)
       if (x(v, a) != x(w, a)) return x(v, a) < x(w, a) ? -1 : 1;
     return 0;

@@ -9,7 +9,7 @@
 namespace onset {
 namespace {
 
-// One batch of pairs as a source.
+// Makes one batch of pairs a source.
 class Batch final : public PairSource {
  public:
   Batch(PairKind kind, const IdPair* pairs, std::size_t count) : kind_(kind), pairs_(pairs), count_(count) {}
@@ -32,8 +32,8 @@ class Near {
       for (int a = 0; a < 3; ++a) x_[std::size_t(4 * v + a)] = motion.t0(v)[a];
   }
 
-  // find_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as
-  // much; but for what is welded.
+  // find_close leaves out none within its Euclidean separation, which is sqrt(3) times that of the maximum
+  // norm, but for welded ones.
   void add_near(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     for (const ClosePair& p : find_close(Batch(kind, pairs, count), {mesh_, x_.data(), 0, 0, options_})) {
       const double* x[4];
