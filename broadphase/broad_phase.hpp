@@ -14,6 +14,7 @@
 
 namespace onset {
 
+// What a broad phase is made from.
 struct BroadPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
@@ -24,8 +25,7 @@ struct BroadPhaseInput {
   double t_max = 1;
   BoxTest test = BoxTest::both_ends;
   InstructionSet instruction_set = InstructionSet::automatic;
-  // The inflation of static primitives; < 0: the same. The mesh keeps their boxes as long as it stays the
-  // same.
+  // The inflation of static primitives; < 0: the same. The mesh keeps their boxes while this does not change.
   double static_inflation = -1;
   // Whether only pairs of kEdgeFace are wanted, by the swept test; else both kinds that a step has.
   bool edges_against_faces = false;

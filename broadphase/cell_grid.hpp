@@ -12,9 +12,9 @@ struct FloatBox {
   std::array<float, 3> lo, hi;
 };
 
-// 2^20 cells an axis around the origin; the outermost take all that lies beyond. The cell
-// of a coordinate is monotone in it, so boxes that overlap share the cell of the lower corner of their
-// intersection, where their pair is reported, once.
+// 2^20 cells an axis around the origin; the outermost take all that lies beyond. The cell of a coordinate is
+// monotone in it, so boxes that overlap share the cell of the lower corner of their intersection, where their
+// pair is reported, once.
 class CellGrid {
  public:
   // Makes cells about twice as wide as the mean box, and doubles that until at most `limit` are covered in

@@ -47,11 +47,13 @@ class PairBatch {
   PairBatch(const PairBatch&) = delete;
   PairBatch& operator=(const PairBatch&) = delete;
 
+  // Hands a batch on when it is full.
   void add(int a, int b) {
     ONSET_ASSERT(count_ < kBatchSize && a >= 0 && b >= 0);
     pairs_[count_++] = {a, b};
     if (count_ == kBatchSize) flush();
   }
+  // Hands on what is left; must be called at the end.
   void flush() {
     if (count_ > 0) sink_(pairs_, count_);
     count_ = 0;

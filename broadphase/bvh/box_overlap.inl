@@ -11,7 +11,7 @@ namespace {
 constexpr int opposite(int row) { return (row + 3) % 6; }
 
 // Returns how far one box, its supports `stride` floats apart, overlaps each of a block along one of six
-// directions, at the end where that is more. Inlined even into large loops: a call would pass eight floats
+// directions, at whichever end that is more. Inlined even into large loops: a call would pass eight floats
 // through memory.
 template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block, int k) {

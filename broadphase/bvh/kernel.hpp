@@ -49,7 +49,8 @@ struct FitArguments {
   int members_each;
 };
 
-// The primitives of a pair. Edges against faces take the swept test only.
+// The primitives of a pair; of two edges the smaller id is first. Edges against faces take the swept test
+// only.
 enum class Sides { vertices_faces, edges_edges, edges_faces };
 
 struct TraverseArguments {

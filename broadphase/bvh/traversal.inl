@@ -140,7 +140,7 @@ class Traversal {
   }
 
   // Returns the lanes of block b that may pair with child c of the query, so that each unordered pair is
-  // found once.
+  // found once. (A primitive shares its vertices with itself.)
   static int unpaired(unsigned c, unsigned b) { return kSelf && c / kBlock == b ? 0xff << c % kBlock : 0xff; }
 
   void pair_children(int level) {

@@ -65,6 +65,7 @@ bool any_across(int first, int count, Same&& same) {
       if (same(i, j)) return true;
   return false;
 }
+// Returns how many of the four vertices of a pair are on its first side.
 inline int points_of_first_side(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
 // Compares exactly; zeros of either sign are alike.
 inline bool at_one_place(const double* x, const double* y) { return x[0] == y[0] && x[1] == y[1] && x[2] == y[2]; }

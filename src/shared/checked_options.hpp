@@ -29,7 +29,9 @@ struct Accuracy {
   // Of a corner at any time, by the caller's axes.
   std::array<double, 3> error_bound{};
 };
+// Returns these for a motion.
 Accuracy accuracy_of(const MeshData& mesh, const Motion& motion, const Options& options);
+// Copies them into the statistics of a call.
 void note(const Accuracy& accuracy, Stats& stats);
 
 }  // namespace onset

@@ -18,6 +18,7 @@
 
 namespace onset {
 
+// A pair that is not free, and what was found of it.
 struct FoundPair {
   PairKind kind;
   PairResult result;
@@ -85,6 +86,7 @@ bool earlier(const FoundPair& x, const FoundPair& y);
 
 // Copies the counts of both kinds of pairs.
 void copy_counts(const TraversalResult& traversal, Stats& stats);
+// Returns the pair as callers see it, with its vertices.
 Pair to_pair(const Mesh& mesh, const FoundPair& found);
 // Sets Stats::worst, the pair with the most checks.
 void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats);

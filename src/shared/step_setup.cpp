@@ -70,9 +70,9 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
   accuracy = accuracy_of(data, motion, options);
   note(accuracy, stats);
   reach = reported_within(accuracy.tolerance, accuracy.extent);
-  // Boxes widened for a separation round, depending on where the scene lies. With this margin,
-  // boxes that just miss belong to pairs farther apart than any that is reported with checks left, so that
-  // results do not depend on that rounding (docs/theory.md, 13.5).
+  // Boxes widened for a separation round, depending on where the scene lies. With this margin, boxes that
+  // just miss belong to pairs farther apart than any that is reported with checks left, so that results do
+  // not depend on that rounding (docs/theory.md, 13.5).
   const bool widened = options.min_separation > 0 || !data.thickness.empty();
   const double margin = test != BoxTest::swept && widened ? reach : 0;
   whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
