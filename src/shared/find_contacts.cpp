@@ -16,7 +16,7 @@ std::size_t sampled_stride(const BroadPhase& broad) {
   return broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge) < kManyBlocks ? 64 : 256;
 }
 // With a t_max beyond this, new boxes cost more than they spare.
-constexpr double kShrinksUpTo = 0.5;        
+constexpr double kShrinksUpTo = 0.5;
 
 // Bounds the earliest contact by a sample of the blocks, shrinks the boxes to that time, and returns it as
 // t_max. A pair that is reported at t with checks left is within StepSetup::reach of its separation then

@@ -23,7 +23,7 @@ struct StepSetup {
   // What boxes must reach (docs/theory.md, 13.5):
   // - contacts: contacts of the exact motion.
   // - stored_step: also pairs that storing a position could close.
-  // - candidates: the same with swept boxes, for a caller who keeps the list.
+  // - candidates: such pairs too, by swept boxes, for a caller who keeps the list.
   // - close: all pairs within a distance.
   enum class Use { contacts, stored_step, candidates, close };
 
