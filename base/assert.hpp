@@ -8,8 +8,8 @@ namespace onset {
 
 }  // namespace onset
 
-// Aborts where the condition fails. On where ONSET_ASSERTS is defined (the CMake option of that name, Debug
-// builds), elsewhere not evaluated.
+// Aborts where the condition fails, if ONSET_ASSERTS is defined (the CMake option of that name, Debug
+// builds); else the condition is not evaluated.
 #ifdef ONSET_ASSERTS
 #define ONSET_ASSERT(condition) ((condition) ? void(0) : ::onset::assertion_failed(#condition, __FILE__, __LINE__))
 #else

@@ -32,7 +32,7 @@ struct PrimitiveFilter {
   std::array<std::vector<int>, 3> moving, statics;
   // The vertices of the primitives that take part; one may be in both lists.
   std::vector<int> moving_vertices, static_vertices;
-  // All vertices, by whether they are static.
+  // All vertices, by whether they are static; empty where none is.
   std::vector<int> free_ids, static_ids;
 
   // Whether rules beyond static vertices keep primitives apart.

@@ -9,9 +9,9 @@ class StaticMotion;  // scene/motion/static_motion.hpp
 struct StaticTrees;  // broadphase/bvh/static_trees.hpp
 class BroadPhase;    // broadphase/broad_phase.hpp
 
-// What is kept of the static part of a mesh. There is a slot of trees for each box test and order of axes,
-// which may change back and forth while widths are nearly equal; broadphase/bvh/static_trees.cpp numbers
-// them.
+// What is kept of the static part of a mesh. Trees have a slot for each order of axes, which may change back
+// and forth while widths are nearly equal, for swept and for motion boxes; broadphase/bvh/static_trees.cpp
+// numbers them.
 struct StaticCache {
   SharedCache<StaticMotion> motion;
   SharedCache<StaticTrees, 18> trees;
