@@ -1,4 +1,4 @@
-// A fixed-size array on a cache-line boundary, uninitialised.
+// An array of fixed size that starts on a cache line and is not initialised.
 #pragma once
 
 #include <cstddef>

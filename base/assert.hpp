@@ -1,5 +1,4 @@
-// Assertions of what the code around them relies on: on where ONSET_ASSERTS is defined (CMake option ONSET_ASSERTS; Debug builds), else
-// not evaluated.
+// Assertions of what the code around them relies on.
 #pragma once
 
 namespace onset {
@@ -9,6 +8,8 @@ namespace onset {
 
 }  // namespace onset
 
+// Aborts where the condition fails, if ONSET_ASSERTS is defined (the CMake option of that name, Debug
+// builds); else the condition is not evaluated.
 #ifdef ONSET_ASSERTS
 #define ONSET_ASSERT(condition) ((condition) ? void(0) : ::onset::assertion_failed(#condition, __FILE__, __LINE__))
 #else

@@ -1,4 +1,4 @@
-// What one call leaves for the next: objects that are taken over, and objects that are shared.
+// Containers for what one call leaves for the next: objects to take over, and objects to share.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace onset {
 
-// Each slot holds at most one object that nobody uses: who takes it has it alone. T may be incomplete here.
+// Holds at most one unused object a slot; whoever takes it has it alone. T may be incomplete here.
 template <class T, std::size_t kSlots>
 class BufferPool {
  public:
@@ -23,7 +23,7 @@ class BufferPool {
   void give_back(std::size_t slot, std::shared_ptr<T> object) {
     ONSET_ASSERT(slot < kSlots);
     const std::lock_guard<std::mutex> lock(mutex_);
-    slots_[slot].swap(object);  // the old one goes after the lock
+    slots_[slot].swap(object);  // the old object is destroyed after the lock
   }
   void clear() {
     for (std::size_t slot = 0; slot < kSlots; ++slot) give_back(slot, nullptr);
@@ -34,7 +34,7 @@ class BufferPool {
   std::array<std::shared_ptr<T>, kSlots> slots_;
 };
 
-// Each slot holds the latest immutable object put there; who took an earlier one keeps it. T may be incomplete here.
+// Holds the latest immutable object a slot; whoever got an earlier one keeps it. T may be incomplete here.
 template <class T, std::size_t kSlots = 1>
 class SharedCache {
  public:
@@ -46,7 +46,7 @@ class SharedCache {
   void put(std::shared_ptr<const T> object, std::size_t slot = 0) {
     ONSET_ASSERT(slot < kSlots);
     const std::lock_guard<std::mutex> lock(mutex_);
-    slots_[slot].swap(object);  // the old one goes after the lock
+    slots_[slot].swap(object);  // the old object is destroyed after the lock
   }
   void clear() {
     for (std::size_t slot = 0; slot < kSlots; ++slot) put(nullptr, slot);

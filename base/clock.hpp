@@ -1,4 +1,4 @@
-// Seconds since construction.
+// A clock that returns the seconds since its construction.
 #pragma once
 
 #include <chrono>

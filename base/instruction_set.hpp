@@ -1,15 +1,16 @@
-// Which instruction set a kernel runs on, picked once at run time.
+// The choice, at run time, of the instruction set that the kernels run on.
 #pragma once
 
 #include "onset/options.hpp"
 
 namespace onset {
 
-// Resolves to scalar or avx2. automatic: the environment variable ONSET_KERNEL ("scalar", "avx2" or
-// "automatic") where it is set and not empty, else the best this machine has. Throws std::invalid_argument
-// naming an unknown ONSET_KERNEL, or a kernel that this machine or build cannot run.
+// Returns scalar or avx2. For `automatic`, the environment variable ONSET_KERNEL ("scalar", "avx2",
+// "automatic") decides where it is not empty, else the best that this machine has. Throws
+// std::invalid_argument naming an unknown ONSET_KERNEL, or a set that this machine or build cannot run.
 InstructionSet resolve_instruction_set(InstructionSet requested);
 
+// Says whether this build has the AVX2 kernels and this processor can run them.
 bool has_avx2();
 
 const char* to_string(InstructionSet set);

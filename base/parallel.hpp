@@ -1,4 +1,4 @@
-// The only place that includes TBB.
+// Parallel loops, arenas and sorts; no other file includes TBB.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -54,6 +54,7 @@ void in_arena(int threads, F&& f) {
   }
 }
 
+// Returns how many threads the current arena may use.
 inline int current_threads() { return tbb::this_task_arena::max_concurrency(); }
 
 // A total order is required of `less`: the result is then independent of the number of threads. It compares integers, or

@@ -10,8 +10,8 @@
 
 namespace onset {
 
-// Ascending and stable. `key(item)`: std::uint64_t. Only digits in which keys differ cost a pass. `scratch`: room for as
-// many items; what is in it afterwards is of no use.
+// Sorts by key(item), a std::uint64_t, ascending and stable. Only digits in which keys differ cost a pass.
+// `scratch` is room for as many items, which is overwritten.
 template <class T, class Key>
 void radix_sort(T* items, T* scratch, std::size_t count, Key&& key) {
   constexpr int kBits = 11;

@@ -1,4 +1,4 @@
-// The unit roundoff of doubles, which every error bound is in units of.
+// The unit roundoff of doubles, u in docs/theory.md: the unit of every error bound.
 #pragma once
 
 namespace onset {

@@ -1,4 +1,4 @@
-// What makes a pair a candidate.
+// The tests that make a pair a candidate, and which of them is cheaper.
 #pragma once
 
 namespace onset {
@@ -6,16 +6,15 @@ namespace onset {
 struct MeshData;
 struct Motion;
 
-// What a candidate is. swept: the boxes of the motion, exact in double, each widened outward, overlap (closed
-// boxes). both_ends: in addition no axis separates the boxes on the same side at both ends of the step, since
-// then linear motion keeps them apart throughout; a subset of swept up to outward rounding. moving: in
-// addition the boxes, each moving linearly from its place at the start to that at the end, are together at
-// some time, give or take 2^-45 of it; a subset of both_ends, and worth its cost where things move by more than
-// twice their size.
+// When two boxes, closed and widened outward, overlap (docs/theory.md, L29):
+// - swept: the boxes of the whole motion overlap.
+// - both_ends: no axis separates them on one side at both ends; a subset of swept up to outward rounding.
+// - moving: in addition, moving linearly from start to end, they are together at some time, give or take
+//   2^-45 of it. This pays where things move by more than twice their size.
 enum class BoxTest { swept, both_ends, moving };
 
-// Both ends or moving: which of them makes a step cheaper. Follows from a sample of the moving edges, whatever
-// was asked of the mesh before.
+// Returns both_ends or moving, as a sample of the moving edges promises the cheaper step. Earlier calls do
+// not matter.
 BoxTest cheaper_box_test(const MeshData& mesh, const Motion& motion);
 
 }  // namespace onset

@@ -6,7 +6,7 @@
 
 namespace onset {
 
-// automatic is the tree: the hash took 10 to 40 times as long on every scene measured.
+// The default is the tree: the hash took 10 to 40 times as long on every scene measured.
 std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input) {
   switch (method) {
     case BroadPhaseMethod::brute:

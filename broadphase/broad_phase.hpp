@@ -1,4 +1,4 @@
-// Boxes in, candidate pairs out: the interface that the BVH, the spatial hash and brute force share.
+// The interface of the broad phases (tree, spatial hash, brute force): boxes in, candidate pairs out.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,20 @@
 
 namespace onset {
 
+// What a broad phase is made from.
 struct BroadPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
+  // Every primitive is widened by this and the largest thickness of its vertices, rounded outward.
   double inflation =
-      0;  // every primitive is widened by this, plus the largest thickness of its vertices, rounded outward
-  double t_max = 1;  // only the motion on [0, t_max] matters; t_max 1 means the exact end positions
+      0;
+  // Only the motion on [0, t_max] matters; 1 means the exact end positions.
+  double t_max = 1;
   BoxTest test = BoxTest::both_ends;
   InstructionSet instruction_set = InstructionSet::automatic;
-  // For primitives all of whose vertices are static, in place of `inflation`; < 0: the same. Their boxes are
-  // kept with the mesh from call to call as long as this stays what it was.
+  // The inflation of static primitives; < 0: the same. The mesh keeps their boxes while this does not change.
   double static_inflation = -1;
-  // The pairs wanted are of kEdgeFace alone, by the swept test; else of both kinds that a step has.
+  // Whether only pairs of kEdgeFace are wanted, by the swept test; else both kinds that a step has.
   bool edges_against_faces = false;
 };
 
@@ -37,19 +39,17 @@ inline bool is_wanted(const BroadPhaseInput& input, Primitive kind) {
   return kind != Primitive::vertex || !input.edges_against_faces;
 }
 
-// Emits each pair that the mesh lets meet (may_meet in scene/primitive_filter.hpp) and that passes the test,
-// exactly once.
+// Streams exactly once each pair that may meet (may_meet in scene/primitive_filter.hpp) and passes the test.
 class BroadPhase : public PairSource {
  public:
   virtual const char* name() const = 0;
-  // New boxes in the memory and the order already there: another motion, t_max, inflation or test over the
-  // same mesh (the same MeshData object) and kinds of pairs. Afterwards as if made from `input`, up to the
-  // order of pairs.
+  // Makes new boxes in the memory and order already there, as if made from `input` up to the order of pairs.
+  // The MeshData object and the kinds of pairs must be the same.
   virtual void refit(const BroadPhaseInput& input) = 0;
-  // Whether the order already there is about as good for this motion as it was for the one that it was made
-  // for: a broad phase that an earlier call used is then worth a refit.
+  // Says whether the order there is about as good for this motion as for its own, so that a refit is worth
+  // it.
   virtual bool suits(const Motion&) const { return false; }
-  // Whether boxes of static primitives were made, not taken from an earlier call.
+  // Says whether boxes of static primitives were made, not taken from an earlier call.
   virtual bool made_static_boxes() const { return false; }
 };
 

@@ -10,7 +10,7 @@ namespace onset {
 
 namespace {
 
-constexpr std::size_t kRows = 16;  // first primitives a block
+constexpr std::size_t kRows = 16;  // primitives of the first side that make a block
 
 class BruteForce final : public BroadPhase {
  public:

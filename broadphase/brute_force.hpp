@@ -1,4 +1,4 @@
-// Every pair against the definition: the reference.
+// The broad phase that asks the definition about every pair: the reference.
 #pragma once
 
 #include "broadphase/broad_phase.hpp"

@@ -16,7 +16,7 @@ CellGrid::CellGrid(const std::vector<const std::vector<FloatBox>*>& sets, std::s
       sum += widest;
     }
   }
-  // The bulk has spread 1: cells of 2^-17 keep it away from the outermost ones.
+  // FloatMap gives the bulk a spread of about 1, so cells of 2^-17 keep it off the outermost ones.
   const double width = count > 0 ? std::max(2 * sum / double(count), 0x1p-17) : 1;
   for (cells_per_unit_ = 1 / width; !fits(sets, limit);) cells_per_unit_ /= 2;
 }

@@ -1,4 +1,4 @@
-// A uniform grid, and which of its cells a box covers.
+// A uniform grid of cells, and the cells that a box covers.
 #pragma once
 
 #include <array>
@@ -7,20 +7,21 @@
 
 namespace onset {
 
-// A swept box in float (monotone map: supports.hpp).
+// The box of a whole motion, through a FloatMap (broadphase/bvh/float_boxes.hpp).
 struct FloatBox {
   std::array<float, 3> lo, hi;
 };
 
 // 2^20 cells an axis around the origin; the outermost take all that lies beyond. The cell of a coordinate is
-// monotone in it, so boxes that overlap share the cell of the lower corner of their intersection: that is
-// where their pair is reported.
+// monotone in it, so boxes that overlap share the cell of the lower corner of their intersection, where their
+// pair is reported, once.
 class CellGrid {
  public:
-  // Cells about twice as wide as the mean box, wider where `limit` entries would not do.
+  // Makes cells about twice as wide as the mean box, and doubles that until at most `limit` are covered in
+  // all.
   CellGrid(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit);
 
-  // f(cell) for every cell that the box covers.
+  // Calls f(cell) for every cell that the box covers.
   template <class F>
   void visit(const FloatBox& box, F&& f) const {
     const Corner lo = corner(box.lo), hi = corner(box.hi);

@@ -27,9 +27,9 @@ bool both_ends_overlap(const MotionBox& a, const MotionBox& b) {
   return true;
 }
 
-// Whether the boxes, each moving linearly from its place at the start to that at the end, are apart at every
-// time, on one axis or another. The reach hi - lo of each direction is positive from its root on, or up to
-// it; computed roots err by 4u of themselves, or 2^-1075.
+// Says whether the boxes, moving linearly, are apart at every time, on one axis or another. The reach hi - lo
+// along a direction is positive from its root on, or up to it. kSlack and kLeast cover rounded roots
+// (docs/theory.md, L30) and belong to the definition of a candidate.
 bool moving_boxes_apart(const MotionBox& a, const MotionBox& b) {
   constexpr double kSlack = 0x1p-45, kLeast = 0x1p-1000;
   double begin = 0, end = 1;

@@ -12,8 +12,8 @@ namespace onset {
 
 namespace {
 
-constexpr std::size_t kEntriesEach = 8;      // cells a primitive may cover on average: bounds the memory
-constexpr std::size_t kEntriesABlock = 512;  // of traversal, more where one cell holds more
+constexpr std::size_t kEntriesEach = 8;      // cells that a primitive may cover on average: bounds the memory
+constexpr std::size_t kEntriesABlock = 512;  // more where one cell holds more
 
 struct Boxes {
   std::vector<int> ids;
@@ -39,11 +39,11 @@ Boxes make_boxes(const BroadPhaseInput& input, const FloatMap& map, Primitive ki
 
 struct Entry {
   std::uint64_t cell;
-  int id;       // place in its side
-  bool second;  // side of the pair
+  int id;       // in its side
+  bool second;  // which side of the pair
 };
 
-// The primitives of both sides of a kind of pairs, by cell.
+// Sorts the primitives of both sides of a kind of pairs by cell.
 class Cells {
  public:
   Cells(const std::vector<FloatBox>& first, const std::vector<FloatBox>& second, bool self)
@@ -67,7 +67,7 @@ class Cells {
 
   std::size_t blocks() const { return block_starts_.size() - 1; }
 
-  // f(a, b) once for each pair whose swept float boxes overlap, in the cell where it is to be reported.
+  // Calls f(a, b) once for each pair whose swept float boxes overlap, in the cell where it is to be reported.
   template <class F>
   void visit(std::size_t first, std::size_t last, F&& f) const {
     std::vector<Member> members;
@@ -89,7 +89,7 @@ class Cells {
     bool second;
   };
 
-  // By lower end along the first axis; each against those that begin before it ends.
+  // Sorts by lower end along the first axis, and compares each with those that begin before it ends.
   template <class F>
   void sweep(std::vector<Member>& members, std::uint64_t cell, F&& f) const {
     std::sort(members.begin(), members.end(), [](const Member& p, const Member& q) {
@@ -120,7 +120,7 @@ class SpatialHash final : public BroadPhase {
 
   const char* name() const override { return "hash"; }
 
-  bool suits(const Motion&) const override { return true; }  // it has no order
+  bool suits(const Motion&) const override { return true; }  // a grid has no order to spoil
   void refit(const BroadPhaseInput& input) override {
     test_ = input.test;
     finite_ = input.motion.status == Outcome::free;

@@ -1,4 +1,4 @@
-// Sorted uniform grid: for scenes of even size.
+// The broad phase by a sorted uniform grid, for scenes whose primitives are of similar size.
 #pragma once
 
 #include "broadphase/broad_phase.hpp"

@@ -13,8 +13,8 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-// igl::edges walks the upper triangle of the adjacency matrix column by column: ordered by the larger vertex,
-// then by the smaller; each row is (smaller, larger).
+// The order of igl::edges, which walks the upper triangle of the adjacency matrix column by column. Rows are
+// (smaller, larger).
 bool in_order(const Edge& e, const Edge& f) { return e[1] != f[1] ? e[1] < f[1] : e[0] < f[0]; }
 
 int id_in(const char* what, const Indices& ids, std::ptrdiff_t row, std::ptrdiff_t column) {
@@ -70,7 +70,7 @@ void require_edges_of_faces(const std::vector<Edge>& edges, const std::vector<st
   for (const auto& f : faces)
     for (std::size_t c = 0; c < 3; ++c) wanted.push_back(upward(f[c], f[(c + 1) % 3]));
   sort_once(wanted);
-  if (edges == wanted) return;  // as derived edges are
+  if (edges == wanted) return;  // as edges made from faces are
   const std::vector<Edge> lost = missing(edges, wanted);
   if (lost.empty()) return;
   for (std::size_t r = 0; r < faces.size(); ++r)

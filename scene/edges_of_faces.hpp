@@ -1,4 +1,4 @@
-// Whether all edges of a mesh's faces are among its edges.
+// The check that all edges of a mesh's faces are among its edges.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 namespace onset {
 
 // Throws std::invalid_argument naming the first face with an edge that `edges` lacks, and that edge. All ids
-// are valid.
+// must be valid.
 void require_edges_of_faces(const std::vector<std::array<int, 2>>& edges,
                             const std::vector<std::array<int, 3>>& faces);
 

@@ -10,18 +10,20 @@ namespace {
 using Count = std::int64_t;
 constexpr std::size_t kMostClasses = 1024;
 
-// Primitives with the same groups, mask and being static, of three kinds. `kind`: 2 class + static.
+// Counts the vertices, edges and faces that rules treat alike.
 struct EqualPrimitives {
-  int kind;
+  int kind;  // 2 class (see Classes) + static
   std::array<Count, 3> count{};
 };
-using Group = std::vector<EqualPrimitives>;  // of a scene, a body or a vertex; each kind once
+// The primitives of a scene, of a body or at a vertex: each kind once.
+using Group = std::vector<EqualPrimitives>;
 
 struct Sums {
   Count masked = 0, both_static = 0, rest = 0;
 };
 
-// The combinations of group and mask that occur, and which of them go together.
+// Numbers the combinations of group and mask that occur, and knows which of them may meet. Beyond
+// kMostClasses all are one class, and masked pairs are not counted as such.
 class Classes {
  public:
   explicit Classes(const std::array<std::vector<PrimitiveKey>, 3>& keys) {
@@ -105,7 +107,7 @@ class FilterCounter {
     }
   }
 
-  // Pairs between two groups; within one where `same`, which are unordered for edges.
+  // Counts pairs between two groups, or within one where `same`, each pair of edges once.
   Sums count(PairKind kind, const Group& a, const Group& b, bool same) const {
     const std::size_t first = std::size_t(first_primitive(kind)),
                       second = std::size_t(second_primitive(kind));
@@ -123,7 +125,7 @@ class FilterCounter {
         else
           (a[i].kind & b[j].kind & 1 ? t.both_static : t.rest) += n;
       }
-    if (!same && kind == PairKind::vertex_face) {  // the other body's vertices against these faces
+    if (!same && kind == PairKind::vertex_face) {  // the vertices of b against the faces of a
       const Sums back = count(kind, b, a, true);
       t.masked += back.masked, t.both_static += back.both_static, t.rest += back.rest;
     }
@@ -143,10 +145,10 @@ class FilterCounter {
     return n;
   }
 
-  // Points share their vertex with none.
+  // Points come last and share their vertex with no edge.
   std::size_t proper_edges() const { return mesh_.edges.size() - std::size_t(mesh_.num_points); }
 
-  // Pairs at each vertex, less one for each pair of edges that share both.
+  // Counts pairs of edges at each vertex, less one for each pair that shares both vertices.
   Count adjacent_edge_edge() const {
     Count n = 0;
     if (!has_keys()) {
@@ -166,13 +168,13 @@ class FilterCounter {
     return n - repeated_edges();
   }
 
-  // Pairs of edges with the same two vertices that nothing but these leaves out.
+  // Counts pairs of edges with the same two vertices that no rule leaves out.
   Count repeated_edges() const {
     const auto order = [&](std::size_t e) {
       const auto& [a, b] = mesh_.edges[e];
       return std::uint64_t(std::max(a, b)) << 32 | std::uint64_t(std::min(a, b));
     };
-    bool strictly = true;  // as derived edges are
+    bool strictly = true;  // as edges made from faces are
     for (std::size_t e = 1; e < proper_edges(); ++e) strictly = strictly && order(e - 1) < order(e);
     if (strictly) return 0;
     std::vector<std::pair<std::uint64_t, int>> sorted;
@@ -219,7 +221,7 @@ class FilterCounter {
     }
   }
 
-  // Whether nothing but a pair of vertices, or its own name, leaves this pair out.
+  // Says whether only the names of the pair itself or of two of its vertices leave it out.
   bool only_by_name(PairKind kind, int a, int b) const {
     const Primitive p = first_primitive(kind), q = second_primitive(kind);
     if (p == q && a == b) return false;
@@ -237,7 +239,7 @@ class FilterCounter {
     return n;
   }
 
-  // Edges meet faces too, in positions at rest.
+  // Edges meet faces too, in the checks of positions at rest.
   static std::vector<Primitive> others(Primitive p) {
     if (p == Primitive::vertex) return {Primitive::face};
     return {Primitive::edge, p == Primitive::edge ? Primitive::face : Primitive::vertex};
@@ -261,7 +263,7 @@ class FilterCounter {
   PrimitiveFilter& filter_;
   Classes classes_;
   Group scene_;
-  std::map<int, Group> bodies_;  // those that do not meet themselves; all where bodies are excluded
+  std::map<int, Group> bodies_;  // those that do not meet themselves; all, where pairs of bodies are excluded
 };
 
 }  // namespace

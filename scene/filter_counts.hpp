@@ -1,4 +1,4 @@
-// Counts pairs by what leaves them out, without looking at any pair: primitives alike are counted together.
+// Counts of pairs by what leaves them out, made without a look at any pair.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace onset {
 
-// Fills the counts of pairs in filter.counts and, where the filter keeps any apart, marks in `idle` (by Primitive,
-// by id) the primitives that can meet nothing. Time:
-// linear in the mesh, plus the square of the number of different combinations of group and mask (at most
-// 1,024 are told apart).
+// Fills the counts of pairs in filter.counts and, where the filter keeps any apart, marks in `idle` (by kind
+// and id) the primitives that can meet nothing. Primitives alike are counted together, so that the time is
+// linear in the mesh plus the square of the number of combinations of group and mask, of which at most 1,024
+// are told apart.
 void count_filtered(const MeshData& mesh, PrimitiveFilter& filter, std::array<std::vector<bool>, 3>& idle);
 
 }  // namespace onset

@@ -93,7 +93,7 @@ Mesh::Mesh(const Positions& rest, const Indices& edges, const Indices& faces, co
 Mesh::Mesh(const Positions& rest, const Indices& faces, const CollisionRules& rules)
     : Mesh(rest.rows(), faces, rules) {}
 
-// All or nothing: data_ changes when f and what follows from it are done.
+// Changes data_ only after all that may throw is done.
 template <class F>
 void Mesh::change(F&& f) {
   auto changed = std::make_shared<MeshData>(*data_);

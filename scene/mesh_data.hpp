@@ -1,4 +1,4 @@
-// The arrays behind a Mesh.
+// The arrays behind a Mesh, and what follows from them.
 #pragma once
 
 #include <algorithm>
@@ -14,36 +14,49 @@ namespace onset {
 struct CollisionRules;    // onset/collision_rules.hpp
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
 
+// Returns the filter of a mesh without rules: see MeshData::filter.
 std::shared_ptr<const PrimitiveFilter> all_primitives();
 
 struct MeshData {
   int num_vertices = 0, num_points = 0;
-  std::vector<std::array<int, 2>> edges;  // the last num_points: {v, v}, of vertices of no other
+  // The last num_points are points: {v, v} for a vertex of no other edge or face.
+  std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> faces;
-  std::vector<double> thickness;  // empty: none; else one value >= 0 a vertex
-  bool weld = false;              // vertices at one place at both ends of a motion count as one
+  // A vertex each, >= 0; empty: none.
+  std::vector<double> thickness;
+  // Whether vertices at one place at both ends of a motion count as one.
+  bool weld = false;
 
-  // Who may meet whom; empty where nothing was set.
-  std::vector<int> body;                                               // a vertex; empty: all in body 0
-  std::vector<bool> is_static;                                           // a vertex: static
-  std::vector<bool> rigid, no_self;                                    // a body
-  std::vector<std::uint32_t> group, mask;                              // a vertex
-  std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;  // smaller id first, sorted, each once
-  std::array<std::vector<std::array<int, 2>>, 3> excluded_pairs;  // of a kind; ids as in IdPair, the same
+  // The following say who may meet whom; each is empty where no rule sets it.
+  // By vertex; empty: all are in body 0.
+  std::vector<int> body;
+  std::vector<bool> is_static;
+  // By body.
+  std::vector<bool> rigid, no_self;
+  // By vertex.
+  std::vector<std::uint32_t> group, mask;
+  // Sorted, each once, the smaller id first.
+  std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;
+  // By kind; ids as in IdPair, sorted, each once.
+  std::array<std::vector<std::array<int, 2>>, 3> excluded_pairs;
 
-  std::shared_ptr<const CollisionRules> rules;  // as they were given; null: of a single query
+  // The rules as they were given; null in the mesh of a single query.
+  std::shared_ptr<const CollisionRules> rules;
 
-  std::vector<int> full_vertex;  // a vertex: its id in the full mesh; empty: its own
+  // The id in the full mesh, by vertex; empty: the same id.
+  std::vector<int> full_vertex;
   int num_full_vertices = 0;
 
-  // What follows from the above, made once (finish_mesh). Never null; at first every primitive takes part, moves, and may
-  // meet all that it shares no vertex with.
+  // What finish_mesh makes of all this. Never null: at first every primitive takes part, moves, and may meet
+  // all that it shares no vertex with.
   std::shared_ptr<const PrimitiveFilter> filter = all_primitives();
-  std::shared_ptr<StaticCache> static_cache;  // not null where the filter has static primitives
-  std::shared_ptr<BroadPhasePool> broad_phases;  // of earlier calls; not null once finished
+  // Not null where the filter has static primitives.
+  std::shared_ptr<StaticCache> static_cache;
+  // Not null after finish_mesh.
+  std::shared_ptr<BroadPhasePool> broad_phases;
 };
 
-// The largest thickness among the vertices [first, last).
+// Returns the largest thickness of the vertices [first, last).
 inline double thickest(const MeshData& mesh, const int* first, const int* last) {
   double r = 0;
   for (; first != last && !mesh.thickness.empty(); ++first)

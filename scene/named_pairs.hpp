@@ -1,4 +1,4 @@
-// Particular pairs of primitives that a caller names, checked row by row.
+// Pairs of primitives that a caller names one by one, checked row by row.
 #pragma once
 
 #include <array>
@@ -10,15 +10,16 @@
 
 namespace onset {
 
+// Collects the rows of a list. `what` names the list in messages; `kinds` are those that it may hold.
 class NamedPairs {
  public:
   NamedPairs(const char* what, const MeshData& mesh, std::vector<PairKind> kinds)
       : what_(what), mesh_(mesh), kinds_(std::move(kinds)) {}
 
-  // The next row. Throws std::invalid_argument naming it for another kind, an id out of range, or an edge and
-  // itself.
+  // Adds the next row. Throws std::invalid_argument naming the row for another kind, an id out of range, or
+  // an edge paired with itself.
   void add(PairKind kind, int a, int b);
-  // Sorted, each once; two edges with the smaller id first.
+  // Returns the pairs of a kind, sorted, each once; of two edges the smaller id comes first.
   std::vector<std::array<int, 2>> of(PairKind kind) const;
 
  private:

@@ -1,4 +1,4 @@
-// Pairs by their ids, and how they are handed on: in small batches, consumed where they are produced. Kernels see this file.
+// Pairs of ids and the callback that hands them on in batches; kernels include this.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +7,20 @@
 
 namespace onset {
 
+// A pair by its ids: vertex and face, two edges with a < b, or edge and face (kEdgeFace).
 struct IdPair {
-  int a, b;  // vertex_face: vertex, face; edge_edge: edges, a < b; kEdgeFace: edge, face
+  int a, b;
 };
 
-// A plain callback, so that kernels compiled for another instruction set can call it. `pairs` is valid during the call only.
+// Receives batches of pairs. It is a plain callback, so that a kernel compiled for another instruction set
+// can call it. `pairs` is valid during the call only.
 struct PairSink {
   void* context;
   void (*consume)(void* context, const IdPair* pairs, std::size_t count);
   void operator()(const IdPair* pairs, std::size_t count) const { consume(context, pairs, count); }
 };
 
-inline constexpr std::size_t kBatchSize = 1024;  // pairs a batch holds at most
+// The most pairs that a batch holds.
+inline constexpr std::size_t kBatchSize = 1024;
 
 }  // namespace onset

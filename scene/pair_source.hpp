@@ -1,4 +1,4 @@
-// Where pairs come from, and the vertices of a pair.
+// The interface of whatever streams pairs, and the vertices of a pair.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace onset {
 
-// The vertices of a pair's first and second side.
+// Writes the four vertices of a pair, the first side before the second.
 inline void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) {
   ONSET_ASSERT(p.a >= 0 && p.b >= 0);
   if (kind == PairKind::vertex_face) {
@@ -29,12 +29,12 @@ inline std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdP
   return v;
 }
 
-// Anything that streams pairs.
+// Streams pairs in blocks.
 class PairSource {
  public:
   virtual ~PairSource() = default;
-  // Units of work that may be traversed concurrently; their number and content do not depend on the thread
-  // count. None where a motion is not finite or out of range.
+  // Returns the number of units of work, which may be traversed concurrently. Their number and content do not
+  // depend on the number of threads. There are none where a motion is not finite or out of range.
   virtual std::size_t blocks(PairKind kind) const = 0;
   // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
   virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
@@ -47,11 +47,13 @@ class PairBatch {
   PairBatch(const PairBatch&) = delete;
   PairBatch& operator=(const PairBatch&) = delete;
 
+  // Hands a batch on when it is full.
   void add(int a, int b) {
     ONSET_ASSERT(count_ < kBatchSize && a >= 0 && b >= 0);
     pairs_[count_++] = {a, b};
     if (count_ == kBatchSize) flush();
   }
+  // Hands on what is left; must be called at the end.
   void flush() {
     if (count_ > 0) sink_(pairs_, count_);
     count_ = 0;

@@ -1,4 +1,4 @@
-// Vertices, edges and faces alike: their ids, their vertices, and what is on each side of a pair.
+// The kinds of primitives: their counts, their vertices, and which is on each side of a pair.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ inline std::size_t primitive_count(const MeshData& mesh, Primitive kind) {
   }
 }
 
-// Vertex ids of a primitive; unused places repeat the first.
+// Returns the vertices of a primitive; unused places repeat the first.
 inline std::array<int, 3> primitive_vertices(const MeshData& mesh, Primitive kind, int id) {
   ONSET_ASSERT(id >= 0 && std::size_t(id) < primitive_count(mesh, kind));
   switch (kind) {
@@ -40,10 +40,10 @@ inline std::array<int, 3> primitive_vertices(const MeshData& mesh, Primitive kin
   }
 }
 
-// Edges against faces, which only positions at rest are asked about: no kind of pair that a step has.
+// Edges against faces, which only the checks of positions at rest ask about; a step has no such pairs.
 inline constexpr PairKind kEdgeFace = PairKind(2);
 
-// What is on each side of a pair.
+// Return the kind of primitive on each side of a pair.
 inline Primitive first_primitive(PairKind kind) {
   return kind == PairKind::vertex_face ? Primitive::vertex : Primitive::edge;
 }

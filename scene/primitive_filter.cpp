@@ -76,7 +76,7 @@ std::vector<int> listed(const std::vector<bool>& marks) {
   return ids;
 }
 
-// Where no two primitives are kept apart: a kind without partners is dropped as a whole.
+// Fills the lists where rules keep no two primitives apart: a kind without partners is dropped as a whole.
 void list_kinds(const MeshData& m, PrimitiveFilter& filter) {
   const bool faces = m.num_vertices > 0 && !m.faces.empty();
   const bool edges = m.edges.size() > 1 || (faces && !m.edges.empty());

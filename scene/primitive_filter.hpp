@@ -1,5 +1,4 @@
-// Which primitives of a mesh take part, and which pairs of them may meet: from topology and filters, once a
-// mesh.
+// Which primitives of a mesh take part, and which pairs may meet, by topology and rules; made once a mesh.
 #pragma once
 
 #include <array>
@@ -10,38 +9,43 @@
 
 namespace onset {
 
-// What of a primitive decides whether it may meet another: compared in bulk.
+// What decides whether a primitive may meet another; kernels compare eight at once.
 struct PrimitiveKey {
-  int body;   // < 0: ~id of its body, which does not meet itself; 0: of no such body
-  int flags;  // kStaticFlag, kExcludedFlag
+  // ~id (< 0) of a body that does not meet itself, else 0.
+  int body;
+  // kStaticFlag and kExcludedFlag.
+  int flags;
   std::uint32_t group, mask;
 };
-inline constexpr int kStaticFlag = int(0x80000000u);  // all vertices static: the sign bit
-inline constexpr int kExcludedFlag = 1;  // named in an excluded pair, itself, by a vertex or its body
+// All vertices are static. It is the sign bit.
+inline constexpr int kStaticFlag = int(0x80000000u);
+// The primitive, a vertex of it or its body is named in an excluded pair.
+inline constexpr int kExcludedFlag = 1;
 
 struct PrimitiveFilter {
   FilterCounts counts;
-  // By id; empty where no two primitives are kept apart but by a shared vertex.
+  // By kind and id; empty where only shared vertices keep primitives apart.
   std::array<std::vector<PrimitiveKey>, 3> keys;
-  // Ids in ascending order, by Primitive. `all`: every primitive takes part and moves (the lists are empty).
+  // Whether every primitive takes part and moves; the lists, by kind in ascending order of ids, are then
+  // empty.
   bool all = true;
   std::array<std::vector<int>, 3> moving, statics;
-  // Vertices of the primitives that take part; a vertex may be in both.
+  // The vertices of the primitives that take part; one may be in both lists.
   std::vector<int> moving_vertices, static_vertices;
   // All vertices, by whether they are static; empty where none is.
   std::vector<int> free_ids, static_ids;
 
-  // Whether anything but static vertices keeps primitives apart.
+  // Whether rules beyond static vertices keep primitives apart.
   bool compares_keys = false;
 
   bool keeps_apart() const { return !keys[0].empty() || !keys[1].empty() || !keys[2].empty(); }
   bool has_static() const { return !static_vertices.empty(); }
 };
 
-// Sets mesh.filter from the rest, and what is kept from call to call anew.
+// Makes mesh.filter from the rest, and empty stores for what is kept from call to call.
 void finish_mesh(MeshData& mesh);
 
-// Whether keys, apart from excluded pairs, let two primitives meet.
+// Says whether keys let two primitives meet, excluded pairs apart.
 inline bool keys_meet(const PrimitiveKey& a, const PrimitiveKey& b) {
   return (a.group & b.mask) != 0 && (b.group & a.mask) != 0 && (a.flags & b.flags) >= 0 &&
          (a.body != b.body || a.body == 0);
@@ -49,13 +53,13 @@ inline bool keys_meet(const PrimitiveKey& a, const PrimitiveKey& b) {
 
 bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b);
 
-// Whether the pair is named, itself, by its vertices or bodies, in an excluded pair.
+// Says whether an excluded pair names this pair, two of its vertices, or its bodies.
 bool excluded(const MeshData& mesh, PairKind kind, int a, int b);
 
-// The definition that every broad phase keeps to: a pair that fails this is no candidate.
+// Says whether a pair can be a candidate. This is the definition that every broad phase keeps to.
 bool may_meet(const MeshData& mesh, PairKind kind, int a, int b);
 
-// Whether all vertices of a primitive are static.
+// Says whether all vertices of a primitive are static.
 inline bool is_static(const MeshData& mesh, Primitive kind, int id) {
   if (mesh.is_static.empty()) return false;
   for (int v : primitive_vertices(mesh, kind, id))

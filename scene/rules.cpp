@@ -49,7 +49,7 @@ void check_one_body(const char* what, const std::vector<std::array<int, N>>& ele
                    ", vertex " + std::to_string(v) + " in body " + std::to_string(body[std::size_t(v)]));
 }
 
-// Points are edges {v, v} after all others.
+// Appends the points as edges {v, v} after all others.
 void apply_points(const std::vector<int>& ids, MeshData& data) {
   data.edges.resize(data.edges.size() - std::size_t(data.num_points));
   enum : char { none, element, point };
@@ -78,7 +78,7 @@ void apply_thickness(const std::vector<double>& thickness, MeshData& data) {
   for (std::size_t v = 0; v < thickness.size(); ++v)
     if (!(thickness[v] >= 0) || !std::isfinite(thickness[v]))
       reject_row("thickness", std::ptrdiff_t(v), std::to_string(thickness[v]) + " is not a finite number >= 0");
-  // All zero is none.
+  // No thickness at all is cheaper than one of 0 everywhere.
   const bool any = std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0; });
   data.thickness = any ? thickness : std::vector<double>();
 }

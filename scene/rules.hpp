@@ -1,4 +1,4 @@
-// The rules of a scene, checked.
+// Collision rules, checked and put into a mesh.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,14 @@
 
 namespace onset {
 
-// Throws std::invalid_argument that names what, the row and why.
+// Throws std::invalid_argument that names `what`, the row and why.
 [[noreturn]] void reject_row(const char* what, std::ptrdiff_t row, const std::string& why);
+// Throws std::invalid_argument where `what` has not one value for each of the `wanted` things, `of` in the
+// message.
 void check_size(const char* what, std::size_t size, std::ptrdiff_t wanted, const char* of);
 
-// Sets all of `data` that rules say, in place of what was set before; what follows from it is for finish_mesh. Throws
-// std::invalid_argument naming the rule and the row, and then leaves `data` in any state.
+// Replaces everything in `data` that rules set; finish_mesh must follow. Throws std::invalid_argument naming
+// the rule and the row, and leaves `data` in an unspecified state then.
 void apply_rules(const CollisionRules& rules, MeshData& data);
 
 }  // namespace onset

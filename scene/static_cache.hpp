@@ -9,14 +9,15 @@ class StaticMotion;  // scene/motion/static_motion.hpp
 struct StaticTrees;  // broadphase/bvh/static_trees.hpp
 class BroadPhase;    // broadphase/broad_phase.hpp
 
-// About the static part of a mesh. The trees are those of a box test and an order of axes, which may change back and
-// forth while widths are nearly equal: which slot is whose, the room that makes them says.
+// What is kept of the static part of a mesh. Trees have a slot for each order of axes, which may change back
+// and forth while widths are nearly equal, for swept and for motion boxes; broadphase/bvh/static_trees.cpp
+// numbers them.
 struct StaticCache {
   SharedCache<StaticMotion> motion;
   SharedCache<StaticTrees, 18> trees;
 };
 
-// Broad phases of earlier calls, for a refit.
+// Broad phases of earlier calls, to be refitted; src/shared/step_setup.cpp numbers the slots.
 using BroadPhasePool = BufferPool<BroadPhase, 4>;
 
 }  // namespace onset

@@ -10,7 +10,7 @@
 namespace onset {
 namespace {
 
-// The window and the memory limit cut off, in the order (toi, kind, a, b), what is later.
+// Cuts off what the window and the memory limit exclude, in the order (toi, kind, a, b).
 void cut_off(std::vector<FoundPair>& found, const Options& options, const Budget& budget, ActiveSet& set) {
   set.complete_until = std::numeric_limits<double>::infinity();
   set.outcome = budget.outcome();

@@ -19,7 +19,7 @@ struct Use {
   bool list = false;
 };
 
-// Takes the candidates of one setup.
+// Counts, lists or hands on the candidates of one setup.
 class CandidateList {
  public:
   CandidateList(const MeshData& mesh, const StepSetup& setup, const Use& use, const Options& options, Budget& budget,
@@ -43,7 +43,7 @@ class CandidateList {
     visit_pairs(*setup_.broad, kind, kBlocksATask, Task{}, visit, merge, [&] { return budget_.spent(); });
     parallel_sort(listed.begin(), listed.end(), [](const auto& p, const auto& q) { return p < q; });
   }
-  // Nothing is listed any more then.
+  // Says whether the list would not fit; nothing more is then listed.
   bool too_many() const { return room_ < 0; }
 
  private:

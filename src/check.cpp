@@ -13,8 +13,8 @@
 namespace onset {
 namespace {
 
-// Of each vertex: whether it has an edge, a face or is a point, and whether one of these is not static as a
-// whole.
+// Marks for each vertex whether an edge, a face or a point uses it, and whether one of these is not static as
+// a whole.
 struct Use {
   std::vector<bool> used, meets;
 
@@ -35,8 +35,8 @@ bool joined(const MeshData& mesh, int v, int w) {
                             std::array<int, 2>{v, w});
 }
 
-// Whether what is at v never meets what is at w: all of it static, in one body that does not meet itself, or in
-// two that pass through each other.
+// Says whether what is at v never meets what is at w: all is static, or in one body that does not meet
+// itself, or in two bodies that are excluded.
 bool never_meet(const MeshData& mesh, const Use& use, int v, int w) {
   if (!use.meets[std::size_t(v)] && !use.meets[std::size_t(w)]) return true;
   const PrimitiveFilter& filter = *mesh.filter;
@@ -77,7 +77,7 @@ std::size_t most(const Options& options, std::size_t bytes) {
   return std::size_t(options.memory_limit) / bytes;
 }
 
-// Lists of pairs, one after the other: of more than memory_limit holds, none.
+// Fills the lists of pairs, one after the other: none of them where one is more than memory_limit allows.
 void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& rest, StartReport& report) {
   rest.find(mesh, Rest::Pairs::edge_face, options, budget);
   bool too_many = false;

@@ -33,7 +33,7 @@ void add_if_common(const MeshData& mesh, const Motion& motion, IdPair ids, std::
   found.push_back({ids.a, ids.b, kind_of(answer), {e[0], e[1], f[0], f[1], f[2]}});
 }
 
-// 0: only whether there is any.
+// With `most` = 0 it only says whether there is any.
 Intersections find(const Mesh& mesh, const Positions& x, const Options& options, std::size_t most) {
   check(options);
   resolve_instruction_set(options.instruction_set);
@@ -91,7 +91,7 @@ Intersections intersections(const Mesh& mesh, const Positions& x, const Options&
   return find(mesh, x, options, std::size_t(options.memory_limit) / sizeof(Intersection));
 }
 
-// The first one found is more than were to be kept.
+// The first one that is found is more than `most`, which ends the search.
 bool has_intersections(const Mesh& mesh, const Positions& x, const Options& options) {
   return find(mesh, x, options, 0).outcome != Outcome::free;
 }

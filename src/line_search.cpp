@@ -42,10 +42,10 @@ struct LineSearch::Impl {
   Mesh mesh;
   LineSearchOptions options;
   double rounding = 0;
-  std::unique_ptr<StepSetup> setup;  // its motion; the tree goes once the pairs are held, and stays where they are too many
+  std::unique_ptr<StepSetup> setup;  // keeps its tree only where the lists do not fit
   std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
   StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
-  PairList pairs, near;         // that may limit a step; that may come within d_hat on the way
+  PairList pairs, near;         // may limit a step; may come within d_hat on the way
 
   NarrowPhaseInput input() const {
     return stored_step_input(mesh.data(), setup->motion, setup->accuracy, options, options.gap_share, rounding);
@@ -57,9 +57,8 @@ struct LineSearch::Impl {
   std::vector<double> at(double step) const;
 };
 
-// Beyond reach for the whole of the exact motion, a pair is beyond d_hat wherever the line search stops, in
-// stored doubles too.
-// False where they are too many to be held.
+// Fills the lists; returns false where they would be too long. A pair that stays beyond euclidean_reach in
+// exact motion is beyond d_hat wherever the line search stops, in stored doubles too.
 bool LineSearch::Impl::fill(Budget& budget) {
   const std::int64_t most = options.memory_limit / std::int64_t(sizeof(IdPair));
   const NarrowPhase narrow(input());
@@ -73,7 +72,7 @@ bool LineSearch::Impl::fill(Budget& budget) {
   return cull_into(*setup->broad, lists, most, budget);
 }
 
-// The positions that x_t0 + step dx rounds to, 4 doubles a vertex, in the motion's order of axes.
+// Returns the positions x_t0 + step dx, rounded: 4 doubles a vertex, in the motion's order of axes.
 std::vector<double> LineSearch::Impl::at(double step) const {
   const Motion& m = setup->motion;
   std::vector<double> x(std::size_t(m.num_vertices) * 4);

@@ -42,8 +42,8 @@ void check_close(const Mesh& mesh, const ClosePairs& close) {
 
 double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0), dx(v, 1), dx(v, 2)); }
 
-// What the lemma gives without a look at any pair, each keeping a share of its gap: distances fall by the rest of it at most. dx is
-// off by a rounding, which safe_step's factor covers.
+// Returns the step that docs/theory.md, L49 gives without a look at any pair: distances fall by at most the
+// rest of the gap that is not kept. dx is off by a rounding, which the factor in safe_step covers.
 double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close, double gap_share) {
   std::vector<double> dx;
   for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
@@ -54,8 +54,8 @@ double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_
   return safe_step(r, Positions(dx.data(), x_t0.rows()));
 }
 
-// Pairs that are not listed are beyond d_hat of their separation, and close no faster than both of their sides move: until when they
-// keep `room` of that, all having moved by s `moved`.
+// Returns until when unlisted pairs are safe if they have `room`: they are beyond d_hat of their separation,
+// and at s no vertex has moved by more than s `moved` (docs/theory.md, L49).
 double time_for_others(double room, double moved) {
   return moved > 0 ? std::max(0.0, room) / (2 * moved) * (1 - 0x1p-48) : INFINITY;
 }
@@ -69,8 +69,8 @@ double most_moved(const Motion& motion) {
   return moved;
 }
 
-// Of a mesh that welds: the first vertex that is where another one is at the start, and not at the end. Pairs that the two keep apart
-// from each other are in no list of close pairs.
+// Returns, for a mesh that welds, the first vertex that is where another one is at the start, but not at the
+// end; else -1. Pairs that count as one there are in no list of close pairs.
 int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) {
   if (!mesh.data().weld) return -1;
   int first = -1;
@@ -83,9 +83,9 @@ int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) 
 
 }  // namespace
 
-// Storing errs as scene/motion.hpp says, in half the distance by half of that bound; largest is M, or d_hat where that is more, and x
-// moves by less than d_hat. Relative errors of computed norms and products are a few u; 1 - 2^-48 covers them and makes the bound
-// strict. Half of a subnormal gap rounds by 2^-1075, which is taken off.
+// docs/theory.md, L49 proves the bound. kStoring (scene/motion/storing.hpp) times the largest coordinate, or
+// d_hat if that is more, covers storing; 1 - 2^-48 covers relative errors and makes the bound strict; 2^-1072
+// covers half of a subnormal gap.
 std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close) {
   const FloatEnvironment environment;
   check_rows("x", x, mesh.num_vertices());
@@ -96,7 +96,7 @@ std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const C
   double largest = close.d_hat;
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
     for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x(v, a)));
-  const double rounding = kStoring * largest;  // of any order of operations, not only x + s dx
+  const double rounding = kStoring * largest;  // for any order of operations
   for (double& of_vertex : r)
     of_vertex = std::max(0.0, (0.5 * of_vertex * (1 - 0x1p-48) - rounding) * (1 - 0x1p-52) - 0x1p-1072);
   return r;

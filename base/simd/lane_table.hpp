@@ -1,4 +1,4 @@
-// Which lanes a mask names. Part of base/simd/pack.hpp.
+// A table of the lanes that each mask names; part of base/simd/pack.hpp.
 #pragma once
 
 namespace onset {
@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kLanes = 8;  // of F8 and I8
 
-// For each mask, its lanes in ascending order.
+// Lists for each mask its lanes in ascending order.
 struct LaneTable {
   unsigned char lane[256][8];
 };

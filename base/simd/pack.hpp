@@ -1,10 +1,11 @@
-// Lanes of numbers as the kernels see them: D4 (four doubles), F8 (eight floats) and I8 (eight ints), with masks of the first two.
+// Lanes of numbers for the kernels: D4 (four doubles), F8 (eight floats), I8 (eight ints), and masks.
 //
-// A kernel text includes this inside a translation unit that defines ONSET_ISA, the namespace of its instruction set's copy. With
-// AVX2 enabled there the packs are registers, else two halves in the vector types of GCC and Clang (SSE2 on every x86-64, NEON on
-// Arm, plain code elsewhere). Both give the same bits for every input: only IEEE + - * / sqrt, comparisons and bit operations are
-// used, min and max are `a < b ? a : b` and `a > b ? a : b` (the second operand wins on NaN or equality, as vminpd does), and
-// nothing is contracted (-ffp-contract=off). All of it has internal linkage, so that no copy compiled for AVX2 is ever shared.
+// The translation unit of a kernel text defines ONSET_ISA, the namespace of its copy. With AVX2 enabled
+// there, packs are registers; else they are two halves in the vector types of GCC and Clang (SSE2 on x86-64,
+// NEON on Arm, else plain code). Both give the same bits for every input: only IEEE + - * / sqrt, comparisons
+// and bit operations are used; min and max are `a < b ? a : b` and `a > b ? a : b`, where the second operand
+// wins on NaN or equality, as in vminpd; nothing is contracted (-ffp-contract=off). All has internal linkage,
+// so that the linker never shares a copy compiled for AVX2.
 #pragma once
 
 #ifndef ONSET_ISA
@@ -24,7 +25,7 @@ namespace {
 inline int lowest_lane(int mask) { return __builtin_ctz(unsigned(mask)); }
 inline int count_lanes(int mask) { return __builtin_popcount(unsigned(mask)); }
 
-// Sums run in one fixed order everywhere.
+// Sums run in one order everywhere, which error bounds count on (docs/theory.md, 1.1).
 template <class V>
 inline V dot(const V (&a)[3], const V (&b)[3]) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
@@ -35,7 +36,7 @@ inline void cross(const V (&a)[3], const V (&b)[3], V (&r)[3]) {
   r[1] = a[2] * b[0] - a[0] * b[2];
   r[2] = a[0] * b[1] - a[1] * b[0];
 }
-// Exact at t = 0 and t = 1.
+// Mixes a and b; exact at t = 0 and t = 1.
 template <class V>
 inline V lerp(V a, V b, V t) {
   return (V::all(1) - t) * a + t * b;

@@ -69,7 +69,7 @@ inline MaskF8 operator|(MaskF8 a, MaskF8 b) { return {_mm256_or_ps(a.m, b.m)}; }
 inline F8 select(MaskF8 m, F8 a, F8 b) { return {_mm256_blendv_ps(b.v, a.v, m.m)}; }
 inline int bits(MaskF8 m) { return _mm256_movemask_ps(m.m); }
 
-// x, y, z of the four points at p0..p3 (four doubles each), one point a lane.
+// Loads x, y, z of the four points at p0..p3 (four doubles each), one point a lane.
 inline void transpose(const double* p0, const double* p1, const double* p2, const double* p3, D4 (&xyz)[3]) {
   const __m256d a = _mm256_loadu_pd(p0), b = _mm256_loadu_pd(p1), c = _mm256_loadu_pd(p2), d = _mm256_loadu_pd(p3);
   const __m256d ab_lo = _mm256_unpacklo_pd(a, b), ab_hi = _mm256_unpackhi_pd(a, b);
@@ -78,7 +78,7 @@ inline void transpose(const double* p0, const double* p1, const double* p2, cons
   xyz[1].v = _mm256_permute2f128_pd(ab_hi, cd_hi, 0x20);
   xyz[2].v = _mm256_permute2f128_pd(ab_lo, cd_lo, 0x31);
 }
-// The first seven of the eight floats at each p[l], one p a lane.
+// Loads the first seven of the eight floats at each p[l], one p a lane.
 inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
   const auto both = [&](int l, int at) {  // four floats of lane l and of lane l + 4
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[l] + at)), _mm_loadu_ps(p[l + 4] + at), 1);
@@ -93,7 +93,7 @@ inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
     if (half == 0) out[3].v = _mm256_castpd_ps(_mm256_unpackhi_pd(ab_hi, cd_hi));
   }
 }
-// The power of two that brings a positive x into [1, 2) (a subnormal x: into [2^-51, 2); 0 gives 2^1023).
+// Returns the power of two that brings x > 0 into [1, 2), a subnormal x into [2^-51, 2); for 0, 2^1023.
 inline D4 inverse_power_of_two(D4 x) {
   const __m256i exponent = _mm256_and_si256(_mm256_castpd_si256(x.v), _mm256_set1_epi64x(0x7ff0000000000000));
   return {_mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(0x7fe0000000000000), exponent))};
@@ -102,12 +102,12 @@ inline F8 to_float(D4 lo, D4 hi) {
   return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(lo.v)), _mm256_cvtpd_ps(hi.v), 1)};
 }
 
-// Of bits.
+// These work bit by bit.
 inline F8 operator&(F8 a, F8 b) { return {_mm256_and_ps(a.v, b.v)}; }
 inline F8 operator|(F8 a, F8 b) { return {_mm256_or_ps(a.v, b.v)}; }
-// a where the sign bit of `sign` is set, else b.
+// Takes a where the sign bit of `sign` is set, else b.
 inline F8 where_negative(F8 sign, F8 a, F8 b) { return {_mm256_blendv_ps(b.v, a.v, sign.v)}; }
-// Bit i: the sign bit of lane i.
+// Bit i of the result is the sign bit of lane i.
 inline int sign_bits(F8 a) { return _mm256_movemask_ps(a.v); }
 __attribute__((always_inline)) inline F8 collect(const float* const* p, int i) {  // lane l: p[l][i]
   return {_mm256_setr_ps(p[0][i], p[1][i], p[2][i], p[3][i], p[4][i], p[5][i], p[6][i], p[7][i])};
@@ -126,11 +126,12 @@ inline I8 min(I8 a, I8 b) { return {_mm256_min_epi32(a.v, b.v)}; }
 inline I8 max(I8 a, I8 b) { return {_mm256_max_epi32(a.v, b.v)}; }
 inline I8 operator|(I8 a, I8 b) { return {_mm256_or_si256(a.v, b.v)}; }
 inline I8 operator&(I8 a, I8 b) { return {_mm256_and_si256(a.v, b.v)}; }
-inline I8 operator==(I8 a, I8 b) { return {_mm256_cmpeq_epi32(a.v, b.v)}; }  // all bits of a lane
+// Sets all bits of the lanes that are equal.
+inline I8 operator==(I8 a, I8 b) { return {_mm256_cmpeq_epi32(a.v, b.v)}; }
 inline int sign_bits(I8 a) { return _mm256_movemask_ps(_mm256_castsi256_ps(a.v)); }
 inline I8 bits_of(F8 a) { return {_mm256_castps_si256(a.v)}; }
 
-// The lanes of `mask` moved to the front; what follows them is unspecified.
+// Moves the lanes of `mask` to the front; what follows them is unspecified.
 inline I8 compress(I8 x, int mask) {
   const __m128i lanes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kLaneTable.lane[mask]));
   return {_mm256_permutevar8x32_epi32(x.v, _mm256_cvtepu8_epi32(lanes))};
@@ -143,7 +144,7 @@ inline void store_interleaved(int* p, I8 a, I8 b) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p + 8), _mm256_permute2x128_si256(lo, hi, 0x31));
 }
 
-// x[i] lane j <- x[j] lane i, for 8 packs.
+// Exchanges lane j of x[i] with lane i of x[j], for 8 packs.
 __attribute__((always_inline)) inline void transpose(F8* x) {
   __m256 a[8], b[8];
   for (int i = 0; i < 4; ++i) {

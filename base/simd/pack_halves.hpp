@@ -26,7 +26,7 @@ template <class Bits>
 struct Mask {
   Bits lo, hi;
 };
-// T: of a lane; Half: half of the lanes; Bits: as many integers.
+// T is the number of a lane, Half a vector of half of the lanes, Bits as many integers.
 template <class T, class Half, class Bits>
 struct Pack {
   using Scalar = T;
@@ -121,18 +121,18 @@ inline int sign_bits(Long2 x) {
 }
 inline int bits(const Mask<Int4>& m) { return sign_bits(m.lo) | sign_bits(m.hi) << 4; }
 inline int bits(const Mask<Long2>& m) { return sign_bits(m.lo) | sign_bits(m.hi) << 2; }
-// Bit i: the sign bit of lane i.
+// Bit i of the result is the sign bit of lane i.
 inline int sign_bits(const F8& a) { return sign_bits((Int4)a.lo) | sign_bits((Int4)a.hi) << 4; }
 inline int sign_bits(const I8& a) { return sign_bits(a.lo) | sign_bits(a.hi) << 4; }
 
-// Of bits.
+// These work bit by bit.
 inline F8 operator&(const F8& a, const F8& b) {
   return {(Float4)((Int4)a.lo & (Int4)b.lo), (Float4)((Int4)a.hi & (Int4)b.hi)};
 }
 inline F8 operator|(const F8& a, const F8& b) {
   return {(Float4)((Int4)a.lo | (Int4)b.lo), (Float4)((Int4)a.hi | (Int4)b.hi)};
 }
-// a where the sign bit of `sign` is set, else b.
+// Takes a where the sign bit of `sign` is set, else b.
 inline F8 where_negative(const F8& sign, const F8& a, const F8& b) {
   return {(Int4)sign.lo < 0 ? a.lo : b.lo, (Int4)sign.hi < 0 ? a.hi : b.hi};
 }
@@ -145,10 +145,11 @@ inline I8 min(const I8& a, const I8& b) { return {{a.lo < b.lo ? a.lo : b.lo, a.
 inline I8 max(const I8& a, const I8& b) { return {{a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi}}; }
 inline I8 operator|(const I8& a, const I8& b) { return {{a.lo | b.lo, a.hi | b.hi}}; }
 inline I8 operator&(const I8& a, const I8& b) { return {{a.lo & b.lo, a.hi & b.hi}}; }
-inline I8 operator==(const I8& a, const I8& b) { return {{a.lo == b.lo, a.hi == b.hi}}; }  // all bits of a lane
+// Sets all bits of the lanes that are equal.
+inline I8 operator==(const I8& a, const I8& b) { return {{a.lo == b.lo, a.hi == b.hi}}; }
 inline I8 bits_of(const F8& a) { return {{(Int4)a.lo, (Int4)a.hi}}; }
 
-// The lanes of `mask` moved to the front; what follows them is unspecified.
+// Moves the lanes of `mask` to the front; what follows them is unspecified.
 inline I8 compress(const I8& x, int mask) {
   int from[8], to[8];
   x.store(from);
@@ -163,7 +164,7 @@ inline void store_interleaved(int* p, const I8& a, const I8& b) {
   for (int i = 0; i < 8; ++i) p[2 * i] = as[i], p[2 * i + 1] = bs[i];
 }
 
-// x[i] lane j <- x[j] lane i, for 8 packs.
+// Exchanges lane j of x[i] with lane i of x[j], for 8 packs.
 __attribute__((always_inline)) inline void transpose(F8* x) {
   float from[8][8];
   for (int i = 0; i < 8; ++i) x[i].store(from[i]);
@@ -173,15 +174,15 @@ __attribute__((always_inline)) inline void transpose(F8* x) {
       half[j % 4] = from[j][i];
     }
 }
-// x, y, z of the four points at p0..p3 (four doubles each), one point a lane.
+// Loads x, y, z of the four points at p0..p3 (four doubles each), one point a lane.
 inline void transpose(const double* p0, const double* p1, const double* p2, const double* p3, D4 (&xyz)[3]) {
   for (int a = 0; a < 3; ++a) xyz[a] = {Double2{p0[a], p1[a]}, Double2{p2[a], p3[a]}};
 }
-// The first seven of the eight floats at each p[l], one p a lane.
+// Loads the first seven of the eight floats at each p[l], one p a lane.
 inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
   for (int i = 0; i < 7; ++i) out[i] = collect(p, i);
 }
-// The power of two that brings a positive x into [1, 2) (a subnormal x: into [2^-51, 2); 0 gives 2^1023).
+// Returns the power of two that brings x > 0 into [1, 2), a subnormal x into [2^-51, 2); for 0, 2^1023.
 inline Double2 inverse_power_of_two(Double2 x) {
   return (Double2)(0x7fe0000000000000 - ((Long2)x & 0x7ff0000000000000));
 }

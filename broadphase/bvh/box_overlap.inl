@@ -10,8 +10,9 @@ namespace {
 
 constexpr int opposite(int row) { return (row + 3) % 6; }
 
-// Supports of one box, `stride` floats apart, against a block of eight: per lane the overlap in one of six directions, the
-// larger of its values at the two ends. (Inlined even into large loops: with a call, eight floats would go through memory.)
+// Returns how far one box, its supports `stride` floats apart, overlaps each of a block along one of six
+// directions, at whichever end that is more. Inlined even into large loops: a call would pass eight floats
+// through memory.
 template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block, int k) {
   const F8 reach = F8::all(box[opposite(k) * stride]) + F8::load(block + k * kLanes);
@@ -19,7 +20,7 @@ __attribute__((always_inline)) inline F8 overlap_along(const float* box, int str
   return max(F8::all(box[(6 + opposite(k)) * stride]) + F8::load(block + (6 + k) * kLanes), reach);
 }
 
-// The smallest over the six. Negative: separated on the same side at both ends.
+// Returns the smallest of the six: negative where an axis separates on one side at both ends.
 template <bool kBothEnds>
 __attribute__((always_inline)) inline F8 overlap(const float* box, int stride, const float* block) {
   F8 least = overlap_along<kBothEnds>(box, stride, block, 0);
@@ -27,7 +28,7 @@ __attribute__((always_inline)) inline F8 overlap(const float* box, int stride, c
   return least;
 }
 
-// The lanes that touch on an axis where equal floats need not be equal doubles.
+// Returns the lanes that touch on an axis where equal floats need not be equal doubles.
 template <bool kBothEnds>
 inline int touching(const float* box, int stride, const float* block, int rounded_axes) {
   int lanes = 0;
@@ -38,7 +39,7 @@ inline int touching(const float* box, int stride, const float* block, int rounde
   return lanes;
 }
 
-// The same as `overlap` of motion boxes, and the smallest overlap at the start and at the end.
+// The `overlap` of motion boxes, and the smallest overlap at the start and at the end.
 struct Reach {
   F8 at_both, at_start, at_end;
 };
@@ -53,24 +54,20 @@ __attribute__((always_inline)) inline Reach reach(const float* box, int stride, 
   return r;
 }
 
-// Boxes that are apart at both ends, on different axes, may be together in between, or not: boxes_overlap in
-// motion_box.hpp decides in double, from when the last axis lets them meet and when the first parts them.
-// Here it is decided in float where that leaves no doubt. A support y of a linear FloatMap is within u |Y| of
-// the Y it stands for, u = 2^-24 (1 + 2^-20), and |Yb| <= |Ya| + |S| for a sum S = Ya + Yb: s = fl(ya + yb) is
-// within 2u (|Ya| + |S|) of it. With e >= 4u |Ya|, S <= (s + e)(1 + 2u) where s + e > 0, S <= (s + e)(1 - 2u)
-// else: a root of s + e is that of an upper bound of S up to a factor within 1 +- 6u, and errs by 5u more as
-// computed; kRootSlack is 16u. s - e is a lower bound likewise. What is apart here is so in double, whose slack
-// is less; a node's supports are at least those of what it holds, so what it drops would be dropped pair by
-// pair.
+// Boxes that are apart at both ends, on different axes, may be together in between. Floats decide here what
+// leaves them no doubt, boxes_overlap in broadphase/motion_box.hpp the rest. The roots of s + e and s - e
+// (error_of) bound those of the exact sums of supports through a linear FloatMap up to 11u, where u = 2^-24
+// (1 + 2^-20); kRootSlack is 16u (docs/theory.md, L33), far more than the slack in double. So what is apart
+// here is apart there, and what a node drops would be dropped pair by pair.
 
 constexpr float kRootSlack = 0x1p-20f, kFourRoundings = 0x1p-22f * (1 + 0x1p-10f), kLeast = 0x1p-100f;
 
-// One of the six directions: supports of two boxes at both ends.
+// The supports of two boxes in one of six directions, at both ends.
 struct Direction {
   F8 a0, a1, b0, b1;
 };
 
-// When boxes may be together: from the last root of a rising reach to the first of a falling one.
+// When boxes may be together: from the last root of a rising overlap to the first of a falling one.
 struct Together {
   F8 begin = F8::all(0.0f), end = F8::all(1.0f);
 
@@ -81,7 +78,7 @@ struct Together {
   }
 };
 
-// 4u |Ya| at either end, and more than any underflow.
+// Returns at least 4u |a| for the exact a at either end, and more than any underflow.
 inline F8 error_of(const Direction& d) {
   return F8::all(kFourRoundings) * (abs(d.a0) + abs(d.a1)) + F8::all(kLeast);
 }
@@ -94,8 +91,8 @@ inline int certainly_together(const Together& least) {
               least.begin * F8::all(1 + kRootSlack) + F8::all(kLeast));
 }
 
-// The lanes whose boxes are certainly apart throughout, of those that are not so on one axis at both ends; and those for
-// which float leaves it open, among them all that may be apart on one axis at both ends: `least` then ends where it begins.
+// Of lanes whose boxes overlap by the test of both ends, those that are certainly apart throughout, and those
+// that are not certainly together (where s - e < 0 at both ends, `least` ends where it begins).
 struct MovingBoxes {
   int apart, unsure;
 };

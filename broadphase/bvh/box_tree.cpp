@@ -13,14 +13,14 @@ constexpr std::size_t kGrain = 512;
 
 int vertices_each(Primitive kind) { return kind == Primitive::vertex ? 1 : kind == Primitive::edge ? 2 : 3; }
 
-// Primitives have records of their own where thickness makes their inflations differ; vertices always do.
+// Says whether edges or faces need records of their own, as thickness makes their inflations differ.
 bool own_supports(const BroadPhaseInput& input, Primitive kind) {
   return kind != Primitive::vertex && !input.mesh.thickness.empty();
 }
 
 }  // namespace
 
-// Unused lanes refer to the record after the last.
+// Unused lanes refer to the record after the last, which is kNowhere.
 BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
                  bool alone)
     : kind_(kind), count_(list.count) {
@@ -44,7 +44,7 @@ BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const
   if (mesh.filter->compares_keys) make_keys(mesh);
 }
 
-// See TreeView: bodies_ has all levels one after the other. Unused lanes meet no group.
+// bodies_ has all levels one after the other (see TreeView). Unused lanes meet no group.
 void BoxTree::make_keys(const MeshData& mesh) {
   const std::vector<PrimitiveKey>& all = mesh.filter->keys[std::size_t(kind_)];
   keys_.assign(3 * ids_.size(), 0), bodies_.assign(ids_.size(), 0);
@@ -125,7 +125,7 @@ float BoxTree::reach(int row) const {
   return *std::max_element(lanes, lanes + kBlock);
 }
 
-// Negative sums of opposite supports: see kernel.hpp.
+// A negative sum of opposite supports means apart: see broadphase/bvh/kernel.hpp.
 bool BoxTree::apart(const BoxTree& other, bool motion) const {
   if (count_ == 0 || other.count_ == 0) return true;
   for (int k = 0; k < 6; ++k) {

@@ -1,4 +1,4 @@
-// The tree over the primitives of one kind: an order along a space-filling curve, and eight boxes a node.
+// The tree over primitives of one kind: eight boxes a node, in an order along a space-filling curve.
 #pragma once
 
 #include <vector>
@@ -10,35 +10,37 @@
 
 namespace onset {
 
-// The entry points of kernel.hpp for one instruction set.
+// The entry points of broadphase/bvh/kernel.hpp for one instruction set.
 struct BvhKernel {
   decltype(&bvh_scalar::fit_leaves) fit_leaves;
   decltype(&bvh_scalar::fit_level) fit_level;
   decltype(&bvh_scalar::traverse) traverse;
 };
-const BvhKernel& bvh_kernel(InstructionSet kernel);  // scalar or avx2
+// Returns the kernel of an instruction set, which it resolves.
+const BvhKernel& bvh_kernel(InstructionSet kernel);
 
 class BoxTree {
  public:
-  // Of the primitives listed, whose vertices all have a rank. `alone`: it is traversed against itself and
-  // other trees of the same order only; else vertices are told apart by ids, which all orders share.
+  // Takes the primitives listed, whose vertices must all have a rank. A tree that is traversed with one of
+  // another `order` must not be `alone`: its vertices then go by ids, which all orders share.
   BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order, bool alone);
 
-  // New boxes, widened by `inflation` and the primitives' own thickness. `vertices`: supports of the vertices
-  // by rank, widened alike, used where no primitive has an inflation of its own.
+  // Makes the boxes, widened by `inflation` and thickness. `vertices` are the supports by rank, widened
+  // alike, which suffice where there is no thickness.
   void fit(const BroadPhaseInput& input, double inflation, const FloatMap& map, const Supports& vertices);
 
-  // Whether the unions of the boxes of both trees, fitted, are apart.
+  // Says whether the unions of all boxes of two fitted trees are apart.
   bool apart(const BoxTree& other, bool motion) const;
-  std::size_t units() const { return (blocks() + kBlock - 1) / kBlock; }  // of traversal: blocks at level 1
+  // Returns the number of units of traversal: blocks at level 1.
+  std::size_t units() const { return (blocks() + kBlock - 1) / kBlock; }
   const TreeView& view() const { return view_; }
   int rounded_axes() const { return rounded_axes_; }
-  // Motion boxes only: whether all coordinates went through a linear map, but for the rounding to float.
+  // Says whether these are motion boxes through a map that was linear, but for rounding to float.
   bool linear() const { return linear_; }
 
  private:
   std::size_t blocks() const { return ids_.size() / kBlock; }
-  float reach(int row) const;  // that support of the union of all boxes
+  float reach(int row) const;  // a support of the union of all boxes
   void lay_out(bool motion);
   void make_keys(const MeshData& mesh);
 
@@ -46,8 +48,8 @@ class BoxTree {
   std::size_t count_;
   int rounded_axes_ = 0;
   bool linear_ = false;
-  AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_: ranks
-  std::vector<int> names_, bodies_, keys_;  // names_: vertices_ as ids, empty where ranks will do
+  AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_ are ranks
+  std::vector<int> names_, bodies_, keys_;  // names_: vertices_ as ids, empty for an `alone` tree
   AlignedArray<float> boxes_;
   TreeView view_{};
 };

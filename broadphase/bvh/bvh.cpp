@@ -70,7 +70,7 @@ class Bvh final : public BroadPhase {
   }
 
  private:
-  // Two trees that are traversed together; its blocks are those up to `end` that no couple before has.
+  // Two trees that are traversed together. Its blocks go from the `end` of the couple before to its own.
   struct Couple {
     const BoxTree *query, *other;
     std::size_t end;
@@ -119,7 +119,7 @@ class Bvh final : public BroadPhase {
     for (const PairKind kind : wanted_kinds(input)) couple(kind);
   }
 
-  // Static against static is never among them.
+  // Lists the trees to be traversed together: never static ones with static ones.
   void couple(PairKind kind) {
     auto& couples = couples_[std::size_t(kind)];
     couples.clear();

@@ -1,4 +1,4 @@
-// Bounding volume hierarchy whose nodes hold the boxes at both ends of the motion.
+// The broad phase by a tree whose nodes hold the boxes at both ends of the motion.
 #pragma once
 
 #include "broadphase/broad_phase.hpp"

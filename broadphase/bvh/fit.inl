@@ -1,4 +1,4 @@
-// Kernel text: boxes of leaves and of the levels above.
+// Kernel text that makes the boxes of leaves and of the levels above.
 #pragma once
 
 #include "base/simd/pack.hpp"
@@ -8,7 +8,7 @@ namespace onset {
 namespace ONSET_ISA {
 namespace {
 
-// The union of each lane's records, turned into rows; a record has a gap after each three supports.
+// Writes the union of each lane's records as rows of a block; a record has a gap after each three supports.
 template <bool kBothEnds>
 void fit_leaf(const FitArguments& a, std::size_t n) {
   constexpr std::size_t kStride = kBoxStrideOf[kBothEnds];
@@ -33,7 +33,7 @@ void fit_leaves(const FitArguments& a, std::size_t first, std::size_t last) {
   for (std::size_t n = first; n < last; ++n) a.motion ? fit_leaf<true>(a, n) : fit_leaf<false>(a, n);
 }
 
-// The union of a block below is the maximum of each of its rows.
+// A lane of a level is the union of a block below: the maximum of each of its rows.
 void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, std::size_t last) {
   const int rows = kRowsOf[motion], stride = kBoxStrideOf[motion];
   const std::size_t size = std::size_t(rows * kLanes), below = std::size_t(tree.blocks[level - 1]);

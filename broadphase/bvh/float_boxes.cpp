@@ -14,7 +14,7 @@ namespace {
 constexpr int kSamples = 256;       // vertices; both ends of each
 constexpr std::size_t kStride = 2;  // samples a knot
 
-// Ascending.
+// Samples the coordinates of each axis, in ascending order.
 std::array<std::vector<double>, 3> sample(const Motion& motion) {
   std::array<std::vector<double>, 3> samples;
   const int step = std::max(1, motion.num_vertices / kSamples);
@@ -64,14 +64,14 @@ void FloatMap::fit_linear(const std::array<std::vector<double>, 3>& samples) {
   if (size == 0) return;
   const int exponent = std::ilogb(size);
   scale_ = std::ldexp(1.0, std::min(-exponent, 1000)), inverse_ = 1 / scale_;
-  // To a coarse multiple: coordinates that came from single precision then mostly stay exact, which spares
-  // the close calls.
+  // A coarse multiple as centre mostly keeps coordinates that came from single precision exact, which spares
+  // decisions in double.
   const double grid = std::ldexp(1.0, std::min(exponent + 3, 1020));
   for (double& c : centre_)
     if (std::fabs(c) < grid * 0x1p50) c = std::nearbyint(c / grid) * grid;
 }
 
-// Whether neighbours among the samples are mostly told apart.
+// Says whether neighbouring samples mostly differ as floats.
 bool FloatMap::separates(const std::array<std::vector<double>, 3>& samples) const {
   for (std::size_t i = 0; i < 3; ++i) {
     std::size_t distinct = 0, merged = 0;
@@ -85,12 +85,12 @@ bool FloatMap::separates(const std::array<std::vector<double>, 3>& samples) cons
   return true;
 }
 
-// Monotone: within an interval every operation is, and 1 is where the next interval begins.
+// It is monotone: within an interval every operation is, and t ends at 1, where the next interval begins.
 float FloatMap::between_knots(double x, std::size_t axis) const {
   const std::vector<double>& knots = knots_[axis];
   const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, x);
   const double lower = above[-1], width = *above - lower, place = double(above - 1 - knots.begin());
-  double t = (x - lower) / width;  // below 0 and beyond 1 outside of the knots
+  double t = (x - lower) / width;  // below 0 or beyond 1 outside of the knots
   if (above != knots.end() - 1) t = std::min(t, 1.0);
   return to_float((place + t - 0.5 * double(knots.size())) * 0x1p-6);
 }
@@ -98,9 +98,9 @@ float FloatMap::between_knots(double x, std::size_t axis) const {
 namespace {
 
 constexpr std::size_t kGrain = 2048;
-constexpr std::size_t kAhead = 16;  // vertices are read in an order that the processor cannot foresee
+constexpr std::size_t kAhead = 16;  // prefetched: the processor cannot foresee the order
 
-// Writes one end of a record, returns the axes on which the map rounded.
+// Writes one end of a record and returns the axes on which the map rounded.
 int write_end(const FloatMap& map, const std::array<double, 3>& lo, const std::array<double, 3>& hi,
               float* out) {
   int rounded = 0;
@@ -117,7 +117,7 @@ int write_record(const FloatMap& map, const MotionBox& box, float* out) {
   return write_end(map, box.lo_t0, box.hi_t0, out) | write_end(map, box.lo_t1, box.hi_t1, out + kBlock);
 }
 
-// A vertex that is not widened, both ends at once: x y z 0 x y z 0.
+// Does so for both ends of a vertex that is not widened: x y z 0 x y z 0.
 int write_point(const FloatMap& map, const double* x, float* out) {
   float y[8];
   int rounded[8];
@@ -132,7 +132,7 @@ int write_point(const FloatMap& map, const double* x, float* out) {
   return (rounded[0] | rounded[4]) | (rounded[1] | rounded[5]) << 1 | (rounded[2] | rounded[6]) << 2;
 }
 
-// The same widened by r > 0, as motion_box widens it: the map is then not one to one.
+// Does so for a vertex widened by r > 0, as motion_box widens it. The map is then not one to one.
 int write_widened_point(const FloatMap& map, const double* x, double r, float* out) {
   float below[8], above[8];
   for (std::size_t k = 0; k < 8; ++k) below[k] = map(widen_down(x[k], r), k % 4);

@@ -1,4 +1,4 @@
-// Coordinates in single precision, in a way that cannot lose an overlap.
+// Coordinates and boxes in single precision, rounded so that no overlap is lost.
 #pragma once
 
 #include <algorithm>
@@ -12,31 +12,31 @@
 
 namespace onset {
 
-// A monotone map from a coordinate to float. Because it is monotone, disjoint floats mean disjoint doubles
-// and strictly overlapping floats mean overlapping doubles, whatever the rounding: no widening is needed, and
-// only equal floats leave the question open. Never gives -0.
+// A monotone map from coordinates to floats, so that overlaps are kept without widening and only equal floats
+// leave them open (docs/theory.md, L32). It never gives -0.
 //
-// Linear, centred on the median and scaled by its spread, so that neither the scene's scale nor its offset
+// It is linear, centred on the median and scaled by the spread, so that neither the scene's scale or offset
 // nor a vertex that has flown off costs the bulk its resolution; what is too far out saturates. Where that
-// would not tell the vertices apart (two clusters that are small against their distance), piecewise linear
-// between quantiles of the coordinates.
+// would not tell vertices apart (small clusters far from each other), it is piecewise linear between
+// quantiles.
 class FloatMap {
  public:
-  static constexpr float kLargest = 0x1p120f;  // what is farther out becomes this
+  // What is farther out becomes this.
+  static constexpr float kLargest = 0x1p120f;
 
   explicit FloatMap(const Motion& motion);
 
-  // Whether it tells the vertices of this motion apart, mostly: a map made for another motion is as correct,
-  // but may leave many pairs to be decided in double.
+  // Says whether it mostly tells the vertices of this motion apart. A map that does not is as correct, but
+  // leaves many pairs to be decided in double.
   bool suits(const Motion& motion) const;
 
   float operator()(double x, std::size_t axis) const {
     if (!knots_[axis].empty()) return between_knots(x, axis);
     return to_float((x - centre_[axis]) * scale_);
   }
-  // Linear but for the rounding to float, as far as coordinates stay below kLargest.
+  // Says whether it is linear, but for rounding to float, where floats stay below kLargest.
   bool is_linear() const { return knots_[0].empty() && knots_[1].empty() && knots_[2].empty(); }
-  // Where it holds for all coordinates of a set, the map is one to one on them.
+  // Says whether y gives x back. The map is one to one on a set where this holds for all of it.
   bool inverts(float y, double x, std::size_t axis) const {
     return double(y) * inverse_ + centre_[axis] == x && knots_[axis].empty();
   }
@@ -50,20 +50,22 @@ class FloatMap {
   bool separates(const std::array<std::vector<double>, 3>& samples) const;
   float between_knots(double x, std::size_t axis) const;
 
-  std::array<double, 4> centre_{};            // the last is for padding
+  std::array<double, 4> centre_{};            // the last is padding
   double scale_ = 1, inverse_ = 1;            // powers of two
   std::array<std::vector<double>, 4> knots_;  // ascending; empty: linear
 };
 
-// One record (layout: kernel.hpp) a vertex, or a primitive where inflations differ, plus a last one of
+// A record (FitArguments::supports) of each vertex, or primitive where inflations differ, and a last one of
 // kNowhere. For the swept test a record has one end, that of the whole motion.
 struct Supports {
   AlignedArray<float> records;
-  std::size_t count = 0;  // without the last
-  int rounded_axes = 0;   // bit i: the map is not one to one on axis i
+  // Without the last.
+  std::size_t count = 0;
+  // Bit i: the map is not one to one on axis i.
+  int rounded_axes = 0;
 };
 
-// Of the primitives ids[0..count), each widened by `inflation` and its own thickness.
+// Makes the supports of the primitives ids[0..count), each widened by `inflation` and its own thickness.
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
                        const int* ids, std::size_t count);
 

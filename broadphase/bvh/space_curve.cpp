@@ -11,11 +11,9 @@
 namespace onset {
 namespace {
 
-// The three-dimensional Hilbert curve as a state machine.
-//
-// Hamilton, "Compact Hilbert indices" (Dalhousie CS-2006-07): a state is the entry corner e (0..7) and the
-// direction d (0..2) of a cell, state = 8 d + e. next[state][octant] = 8 * (state of that octant) + its place
-// along the curve.
+// The Hilbert curve as a state machine, after Hamilton, "Compact Hilbert indices" (Dalhousie CS-2006-07). The
+// state of a cell with entry corner e (0..7) and direction d (0..2) is 8 d + e; next[state][octant] is 8
+// times the state of that octant, plus its place along the curve.
 struct HilbertTable {
   std::array<std::array<std::uint8_t, 8>, 24> next{};
 };
@@ -51,15 +49,15 @@ constexpr HilbertTable make_hilbert_table() {
 
 constexpr HilbertTable kTable = make_hilbert_table();
 constexpr std::size_t kGrain = 8192;
-constexpr std::size_t kCrowd = 64;  // points in one cell that are worth a finer curve
-constexpr int kDeepest = 16;        // finer and finer, at most
+constexpr std::size_t kCrowd = 64;  // so many points in one cell are worth a finer curve
+constexpr int kDeepest = 16;        // curves within curves, at most
 
 struct Keyed {
   std::uint32_t key;
   int index;
 };
 
-// A cube of 2^kCurveBits cells an axis around points.
+// A cube of 2^kCurveBits cells an axis around some points.
 struct Grid {
   float lo[3], scale;
 
@@ -70,7 +68,7 @@ struct Grid {
   std::uint32_t key(const float* p) const { return hilbert_key(cell(p, 0), cell(p, 1), cell(p, 2)); }
 };
 
-// False where all points coincide.
+// Returns false where all points coincide.
 bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& grid) {
   float lo[3], hi[3];
   for (int i = 0; i < 3; ++i) lo[i] = hi[i] = points[3 * std::size_t(first->index) + std::size_t(i)];
@@ -87,7 +85,7 @@ bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& 
 
 constexpr std::size_t kFew = 1024;  // so few are sorted faster by comparing
 
-// Stable.
+// Sorts stably.
 void sort_by_key(Keyed* keys, Keyed* scratch, std::size_t count) {
   if (count < kFew)
     std::stable_sort(keys, keys + count, [](const Keyed& a, const Keyed& b) { return a.key < b.key; });

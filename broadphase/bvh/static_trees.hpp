@@ -7,21 +7,23 @@
 
 namespace onset {
 
-// Immutable once made. What is compared with it must have gone through the same map.
+// The trees are immutable. Whatever is traversed with them must have gone through the same map.
 struct StaticTrees {
   StaticTrees(const BroadPhaseInput& input, double inflation);
 
-  std::shared_ptr<const StaticMotion> motion;  // the positions and axes that it was made for
+  // The positions that they were made for.
+  std::shared_ptr<const StaticMotion> motion;
   std::array<int, 3> axes;
   double inflation;
   FloatMap map;
-  bool separates;  // as well as a map can here
+  // Whether the map suited the motion that it was made for.
+  bool separates;
   VertexOrder order;
   std::array<std::optional<BoxTree>, 3> trees;
 };
 
-// Those of the mesh where they fit `input`, else new ones, which the mesh then keeps: `made` tells. A set of
-// its own for each box test and order of axes.
+// Returns the trees of the mesh where they fit `input`, else makes new ones, which the mesh then keeps;
+// `made` says which. The mesh keeps one set for each order of axes, for the swept test and for the others.
 std::shared_ptr<const StaticTrees> static_trees(const BroadPhaseInput& input, bool& made);
 
 }  // namespace onset

@@ -1,4 +1,4 @@
-// Kernel text: the traversal of two trees.
+// Kernel text that traverses two trees.
 #pragma once
 
 #include "base/assert.hpp"
@@ -8,7 +8,7 @@ namespace onset {
 namespace ONSET_ISA {
 namespace {
 
-// Entries are written eight at a time, so there is room for eight more than may count.
+// Entries are written eight at a time, so there is room for eight more than count.
 constexpr int kCapacity = 256;
 
 struct Pairs {
@@ -23,9 +23,8 @@ struct Pairs {
   }
 };
 
-// Two trees descended side by side. Every step is a loop over a list that writes the next list without
-// branches, eight entries at a time and as many of them counted as the test says; a list that is full is
-// emptied downward first, so memory is constant and the work depth first.
+// Descends two trees side by side. Every step is a loop over a list that writes the next list without
+// branches, eight entries at a time. A full list is emptied downward first, so memory is constant.
 template <BoxTest kTest, Sides kSides, bool kSelf, bool kKeyed>
 class Traversal {
  public:
@@ -65,24 +64,22 @@ class Traversal {
     const float* box(unsigned slot) const { return block(slot / kBlock) + slot % kBlock; }
   };
 
-  // Lanes of a block at `level` of `tree` that lie within one body as a whole, the body given, which does not
-  // meet itself.
+  // Returns the lanes of a block that lie wholly within this body, which does not meet itself.
   static int within(int body, const TreeView& tree, int level, unsigned block) {
     const I8 bodies = I8::load(tree.bodies[level] + std::size_t(block) * kBlock);
     return sign_bits((I8::all(body) == bodies) & bodies);
   }
-  // The body of a whole block at `level`, which is a lane of the level above.
+  // A block is a lane of the level above.
   static int body_of(const TreeView& tree, int level, unsigned block) {
     return tree.bodies[level + 1][block];
   }
 
-  // at_start and at_end only where moving boxes are looked for.
+  // at_start and at_end are set only for moving boxes.
   __attribute__((always_inline)) static Reach reach_of(const float* box, int stride, const float* block) {
     if constexpr (kMoving) return reach(box, stride, block);
     return {overlap<kBothEnds>(box, stride, block), F8{}, F8{}};
   }
 
-  // Lanes of a block of nodes that may meet a box.
   int meeting(const float* box, int stride, const float* block) const {
     const Reach r = reach_of(box, stride, block);
     const int mask = ~sign_bits(r.at_both) & 0xff;
@@ -95,7 +92,7 @@ class Traversal {
     return mask & ~moving_boxes_apart(direction).apart;
   }
 
-  // blocks_[l] pairs a block of `query` at level min(l, 1) with one of `tree` at level l.
+  // blocks_[level] pairs blocks of `query` at level min(level, 1) with blocks of `tree` at `level`.
   void empty_blocks(int level) {
     if (level > 1)
       descend(level);
@@ -104,7 +101,7 @@ class Traversal {
     blocks_[level].count = 0;
   }
 
-  // A block of the query, still whole, against the children of a node above.
+  // Tests a whole block of the query against the children of a node.
   void descend(int level) {
     const Pairs& from = blocks_[level];
     Pairs& to = blocks_[level - 1];
@@ -112,7 +109,7 @@ class Traversal {
       const int q = from.a[e], n = from.b[e];
       int mask = meeting(box_of(t_.query, 1, q), 1, block_of(t_.tree, level, n));
       if (kKeyed) mask &= ~within(body_of(t_.query, 1, unsigned(q)), t_.tree, level, unsigned(n));
-      if (kSelf) {  // nothing before q itself
+      if (kSelf) {  // nothing before q itself: that pair was found from there
         const int skip = (q >> 3 * (level - 2)) - n * kBlock;
         mask &= 0xff << (skip > 0 ? skip : 0);
       }
@@ -121,7 +118,7 @@ class Traversal {
     }
   }
 
-  // Which children of a meet the box of b.
+  // Finds the children of block a that meet the box of block b.
   void split(int level) {
     const Pairs& from = blocks_[level];
     for (int e = 0; e < from.count; ++e) {
@@ -142,8 +139,8 @@ class Traversal {
     children_[level].count = 0;
   }
 
-  // Lanes of block b that may pair with child c of a block of the query: each unordered pair once. (A
-  // primitive shares its vertices with itself.)
+  // Returns the lanes of block b that may pair with child c of the query, so that each unordered pair is
+  // found once. (A primitive shares its vertices with itself.)
   static int unpaired(unsigned c, unsigned b) { return kSelf && c / kBlock == b ? 0xff << c % kBlock : 0xff; }
 
   void pair_children(int level) {
@@ -160,7 +157,7 @@ class Traversal {
   }
 
   void emit() {
-    const Leaves query(t_.query), tree(t_.tree);  // copies: what is written cannot change them
+    const Leaves query(t_.query), tree(t_.tree);  // copies, which no write can change
     const bool rounded = t_.rounded_axes != 0;
     const Pairs& from = children_[0];
     const int items = from.count;
@@ -194,7 +191,7 @@ class Traversal {
     count_ = std::size_t(out - out_);
   }
 
-  // All bits of the lanes that share a vertex; each vertex of `own` is a row of 8 after the one before.
+  // Sets all bits of the lanes that share a vertex. The vertices of `own` are kBlock apart.
   __attribute__((always_inline)) static I8 sharing(const int* own, const int* others) {
     I8 shared = I8::all(own[0]) == I8::load(others);
     for (int j = 0; j < kOwn; ++j)
@@ -207,8 +204,8 @@ class Traversal {
     return t_.query.keys + std::size_t(slot / kBlock) * (3 * kBlock) + slot % kBlock;
   }
 
-  // The sign of each lane whose key cannot meet that of c: keys_meet in scene/primitive_filter.hpp, but for
-  // two static primitives, whose trees are never traversed together.
+  // Sets the sign of each lane whose key cannot meet that of c: keys_meet in scene/primitive_filter.hpp,
+  // without static against static, which is never traversed.
   I8 apart(unsigned c, unsigned b) const {
     const int *own = key_of(c), *keys = t_.tree.keys + std::size_t(b) * (3 * kBlock);
     const I8 bodies = I8::load(t_.tree.bodies[0] + std::size_t(b) * kBlock), none = I8::all(0);
@@ -229,15 +226,14 @@ class Traversal {
     return mask;
   }
 
-  // Lanes of `mask` for which signs in float may not tell: of moving boxes, all that overlap at neither end, or only
-  // touch there; else those that touch, where some axis is rounded.
+  // Returns the lanes that signs in float may not decide: moving boxes that overlap at neither end or only
+  // touch there, other boxes that touch where an axis is rounded.
   static int in_doubt(int mask, const Reach& r, bool rounded) {
     if (kMoving) return mask == 0 ? 0 : mask & bits(r.at_start <= F8::all(0)) & bits(r.at_end <= F8::all(0));
     return rounded ? mask & bits(r.at_both == F8::all(0)) : 0;
   }
 
-  // Puts off those of these lanes that float cannot decide; returns them. (Not inlined: the loop that it is called from has
-  // no register to spare.)
+  // Puts off lanes in doubt and returns them. Not inlined: the loop that calls it has no register to spare.
   __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
     if (!kMoving)
       doubt &= touching<kBothEnds>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
@@ -246,7 +242,7 @@ class Traversal {
     return doubt;
   }
 
-  // What is in doubt, eight pairs at a time: decided in float where that will do, else in double.
+  // Decides what is in doubt, eight pairs at a time in float, the rest in double.
   void settle_doubtful() {
     const Leaves query(t_.query), tree(t_.tree);
     for (int first = 0; first < doubtful_.count; first += kLanes) {
@@ -264,7 +260,6 @@ class Traversal {
     doubtful_.count = 0;
   }
 
-  // Eight leaves against eight others.
   MovingBoxes compare(const int* a, const int* b, int count) const {
     const Leaves query(t_.query), tree(t_.tree);
     const float *boxes_a[kLanes], *boxes_b[kLanes];

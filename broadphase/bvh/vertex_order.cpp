@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-constexpr std::ptrdiff_t kLongRun = 16;  // primitives of one lowest rank, as around a hub
+constexpr std::ptrdiff_t kLongRun = 16;  // so many primitives of one lowest rank are sorted, as around a hub
 
 struct RankRange {
   int lowest, highest;
@@ -30,7 +30,7 @@ RankRange rank_range(const MeshData& mesh, Primitive kind, const int* rank, int 
   return {std::min(a, std::min(b, c)), std::max(a, std::max(b, c))};
 }
 
-// By highest rank, then by id.
+// Sorts by highest rank, then by id.
 void sort_run(const MeshData& mesh, Primitive kind, const int* rank, int* first, int* last) {
   std::vector<std::pair<int, int>> keys;
   for (const int* id = first; id != last; ++id)
@@ -76,7 +76,7 @@ VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const I
 void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
                       int* ids) {
   const std::size_t count = list.count;
-  if (count == 0) return;  // no ids can be the data() of an empty list, too
+  if (count == 0) return;  // an empty list may have a null data(), which means all
   if (kind == Primitive::vertex && !list.ids) {
     std::copy(order.vertex.begin(), order.vertex.end(), ids);
     return;
@@ -92,7 +92,7 @@ void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, 
   for (int& n : start) sum += std::exchange(n, sum);
   for (std::size_t i = 0; i < count; ++i) ids[start[std::size_t(lowest[i])]++] = list[i];
   for (std::size_t r = 0, first = 0; r < start.size();
-       first = std::size_t(start[r++]))  // start: now where runs end
+       first = std::size_t(start[r++]))  // start[r] is now where run r ends
     if (start[r] - std::ptrdiff_t(first) > kLongRun) sort_run(mesh, kind, rank, ids + first, ids + start[r]);
 }
 

@@ -6,8 +6,8 @@
 
 namespace onset {
 
-// x - y without rounding: the rounded difference and what it leaves (Knuth's two-sum; no overflow within
-// kMaxCoordinate).
+// The exact x - y as its rounded value and the rest, by Knuth's two-sum; within kMaxCoordinate none
+// overflows.
 struct Difference {
   double rounded, rest;
 };
@@ -16,16 +16,16 @@ inline Difference exact_difference(double x, double y) {
   return {d, (x - (d - back)) - (y + back)};
 }
 
-// -1, 0, 1 as column i of the caller's positions comes before, with or after column j. The order depends only
-// on exact differences of positions along an axis and not on their sign, so it commutes with exchanging axes,
-// flipping them, exact translation and power-of-two scaling. Columns that tie are equal up to sign and an
-// offset and may be exchanged freely; differences that are equal only when rounded are no tie.
-// x(v, end, column): a coordinate of one of `vertices`.
+// Returns -1, 0 or 1 as column i of the caller's positions comes before, with or after column j. The order
+// depends only on exact differences of positions along an axis, not on their sign, so it commutes with
+// exchanging axes, flipping them, exact translation and scaling by powers of two. Columns that tie are equal
+// up to sign and an offset, so that either may come first (docs/theory.md, T12). x(v, end, column) is a
+// coordinate of one of `vertices`.
 template <class Coordinate>
 int compare_columns(int vertices, const Coordinate& x, int i, int j) {
   double sign[2] = {0, 0};
   const int column[2] = {i, j};
-  for (int pass = 0; pass < 2; ++pass) {  // magnitudes first, then signs relative to the first non-zero one
+  for (int pass = 0; pass < 2; ++pass) {  // magnitudes, then signs relative to the first non-zero one
     for (int v = 0; v < vertices; ++v)
       for (int end = 0; end < 2; ++end) {
         Difference d[2];
@@ -43,7 +43,7 @@ int compare_columns(int vertices, const Coordinate& x, int i, int j) {
   return 0;
 }
 
-// The widest axis first.
+// Orders the axes, the widest first; equally wide ones by compare_columns.
 template <class Coordinate>
 std::array<int, 3> widest_first(const std::array<double, 3>& width, int vertices, const Coordinate& x) {
   std::array<int, 3> axes{0, 1, 2};

@@ -29,7 +29,7 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
     const int v = filter.all ? int(i) : filter.moving_vertices[i];
     for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], std::fabs(m.t1(v)[a] - m.t0(v)[a]));
   }
-  for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor (1 + 4u)
+  for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor 1 + 4u
     if (!mesh.faces.empty()) r.vertex_face[a] = (moved[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
     if (!mesh.edges.empty()) r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);
   }

@@ -1,4 +1,4 @@
-// How large a pair of overlapping boxes can be.
+// Bounds of the corner differences of pairs whose boxes overlap.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace onset {
 
-// Largest swept extent, per axis, over elements of N vertices: those listed, or all; rounded up.
+// Returns, per axis, the largest swept extent of elements of N vertices, those listed or all, rounded up.
 template <std::size_t N>
 std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& elements,
                                     const std::vector<int>* listed, const Motion& m) {
@@ -26,16 +26,17 @@ std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& eleme
       widest[a] = std::max(widest[a], hi - lo);
     }
   }
-  for (double& w : widest) w *= 1 + 0x1p-52;  // hi - lo rounds to nearest: one ulp more is an upper bound
+  for (double& w : widest) w *= 1 + 0x1p-52;  // hi - lo was rounded to nearest
   return widest;
 }
 
-// Per stored axis, upper bounds on the largest corner difference |p - v| (vertex-face), |p_i - p_j|
-// (edge-edge) that a pair with overlapping swept boxes can have (each side of the pair spans its swept
-// extent, and the boxes are at most `gap` apart): R <= w(A) + w(B) + gap. Of primitives that take part.
+// Upper bounds, per stored axis, of the corner differences that a pair can have whose swept boxes are at most
+// `gap` apart: the sum of both swept extents and the gap (docs/theory.md, L31). Only primitives that take
+// part count.
 struct Extents {
   std::array<double, 3> vertex_face{}, edge_edge{};
-  double largest() const;  // over kinds and axes
+  // Returns the largest over kinds and axes.
+  double largest() const;
 };
 Extents corner_extents(const MeshData& mesh, const Motion& motion, double gap);
 

@@ -69,7 +69,7 @@ void find_bad_vertex(Motion& m) {
 
 namespace {
 
-// The canonical axes of the scene, from the free vertices and what is known of the others; false where a
+// Finds the canonical axes from the free vertices and what is known of the others. Returns false where a
 // position is not usable.
 bool axes_around(const PrimitiveFilter& filter, const StaticMotion& still, const Positions& x_t0,
                  const Positions& x_t1, std::array<int, 3>& axes) {
@@ -88,8 +88,8 @@ bool axes_around(const PrimitiveFilter& filter, const StaticMotion& still, const
   return true;
 }
 
-// The motion of a mesh whose static vertices are where they were; empty where they are not, or anything else
-// wants a closer look.
+// Makes the motion of a mesh whose static vertices are where they were. It is empty where they are not, or a
+// position is not usable: make_motion then says why.
 Motion motion_around(const MeshData& mesh, std::shared_ptr<const StaticMotion> still, const Positions& x_t0,
                      const Positions& x_t1) {
   const PrimitiveFilter& filter = *mesh.filter;

@@ -14,24 +14,27 @@ namespace onset {
 
 struct Motion;
 
-// By their bits: zeros of different sign are told apart, so that a reused row is what was passed in.
+// Compares bits. Zeros of different sign differ, so that a reused row is exactly what was passed in.
 bool same_bits(const double* a, const double* b, std::size_t count);
 
-// What the steps have in common as long as static vertices stay where they are: immutable but for memory
-// to use again, safe to share.
+// What steps have in common as long as static vertices stay where they are. It is immutable, but for memory
+// to use again, and any thread may use it.
 class StaticMotion {
  public:
-  std::vector<double> x;                               // x y z of each static vertex, in the order of ids
-  std::array<std::vector<double>, 3> column;           // the same by column
-  bool contiguous = true;                              // the ids are
-  std::array<double, 3> lo{}, hi{};                    // per column
-  std::array<double, 3> widest_edge{}, widest_face{};  // of the static primitives that take part, rounded up
+  // x y z of each static vertex, in the order of ids, and the same by column. All columns are the caller's.
+  std::vector<double> x;
+  std::array<std::vector<double>, 3> column;
+  // Whether the ids of static vertices have no gaps.
+  bool contiguous = true;
+  std::array<double, 3> lo{}, hi{};
+  // Extents of the static primitives that take part, rounded up.
+  std::array<double, 3> widest_edge{}, widest_face{};
 
-  // Whether static vertices are there, at one end of a motion.
+  // Says whether the static vertices, with these ids, have the same positions at one end of a motion.
   bool stands_at(const std::vector<int>& ids, const Positions& positions) const;
 
-  // Motion::x of an earlier motion with these axes, whose rows of static vertices still hold; empty if none
-  // is kept. At most two are.
+  // Takes Motion::x of an earlier motion with these axes, whose rows of static vertices still hold; it is
+  // empty if none is kept. At most two are kept.
   AlignedArray<double> take(const std::array<int, 3>& axes) const;
   void give_back(const std::array<int, 3>& axes, AlignedArray<double> rows) const;
 
@@ -44,7 +47,7 @@ class StaticMotion {
   mutable std::array<Rows, 2> kept_;
 };
 
-// The static part of a motion just made.
+// Makes the static part of a motion.
 std::shared_ptr<const StaticMotion> make_static_motion(const MeshData& mesh, const Motion& m);
 
 }  // namespace onset

@@ -34,8 +34,8 @@ void Budget::advance(std::size_t blocks) {
 
 double Budget::done() const { return blocks_ > 0 ? double(blocks_done_) / double(blocks_) : 0; }
 
-// Not a mutex: whoever comes while another reports goes on working, and a callback that runs parallel work of
-// its own may be given a task of this call.
+// This is not a mutex: a thread that comes while another reports goes on working, and a callback that runs
+// parallel work of its own may be given a task of this call, which would wait for itself.
 void Budget::report() {
   if (!options_.progress || outcome() != Outcome::free || reporting_.test_and_set()) return;
   struct Release {
@@ -45,7 +45,7 @@ void Budget::report() {
   if (!options_.progress(done())) end(Outcome::cancelled);
 }
 
-// The first reason stands.
+// The first reason to end stands.
 void Budget::end(Outcome why) {
   Outcome none = Outcome::free;
   outcome_.compare_exchange_strong(none, why);

@@ -1,4 +1,4 @@
-// What a call may still spend: time, checks, the caller's patience. One for a call; any thread.
+// What a call may still spend: time, checks, and the caller's patience.
 #pragma once
 
 #include <atomic>
@@ -11,26 +11,28 @@
 
 namespace onset {
 
+// The budget of one call. Any thread may ask it.
 class Budget {
  public:
   // Calls Options::progress with 0.
   explicit Budget(const Options& options);
 
-  // Whether the call must end; looks at the clock.
+  // Says whether the call must end; looks at the clock.
   bool spent();
-  // A new traversal of so many blocks of pairs, and how many more of them are done: for the caller's progress.
+  // Begin a traversal of so many blocks of pairs, and say that so many more are done, which reports progress.
   void begin_traversal(std::size_t blocks);
   void advance(std::size_t blocks);
   void add_checks(std::int64_t checks) { checks_ += checks; }
-  // Between waves of work only, so that the answer does not depend on the order of work.
+  // Ends the call where its checks are spent. Called between waves of work only, so that the answer does not
+  // depend on the order of work.
   void look_at_checks();
 
   bool counts_checks() const;
-  // Time or cancellation: pairs then come a few at a time.
+  // Says whether time or the caller can end the call: pairs then come a few at a time.
   bool is_watched() const;
-  // Why the call must end; free while it need not.
+  // Returns why the call must end; free while it need not.
   Outcome outcome() const { return outcome_.load(std::memory_order_relaxed); }
-  // The share of the last traversal that is done, in [0, 1].
+  // Returns the share of the last traversal that is done, in [0, 1].
   double done() const;
 
  private:

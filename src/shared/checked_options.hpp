@@ -1,4 +1,4 @@
-// Options checked once, and what follows from them for a motion.
+// The check of options, and what follows from them for a motion.
 #pragma once
 
 #include <array>
@@ -12,22 +12,26 @@ namespace onset {
 
 // Throws std::invalid_argument naming the option and its value.
 void check(const Options& options);
-// The same for the share of a gap to keep.
+// Does the same for the share of a gap to keep.
 void check_gap_share(double gap_share);
 
-// The distance, rounded up, that the thickest pair must keep.
+// Returns the distance, rounded up, that the thickest pair must keep.
 double largest_separation(const MeshData& mesh, const Options& options);
 
-// Options::tolerance, or the relative one times R (> 0 in any case).
+// Returns Options::tolerance, or the relative one times `extent`; always > 0.
 double absolute_tolerance(const Options& options, double extent);
 
-// What of a step's size the narrow phase goes by.
+// The lengths, in units of the model, by which the narrow phase works.
 struct Accuracy {
-  double tolerance = 0;  // model length, > 0
-  double extent = 0;     // R: the largest corner difference that an overlapping pair can have
-  std::array<double, 3> error_bound{};  // of a corner, per axis of the caller's
+  double tolerance = 0;
+  // The largest corner difference that a pair with overlapping boxes can have.
+  double extent = 0;
+  // Of a corner at any time, by the caller's axes.
+  std::array<double, 3> error_bound{};
 };
+// Returns these for a motion.
 Accuracy accuracy_of(const MeshData& mesh, const Motion& motion, const Options& options);
+// Copies them into the statistics of a call.
 void note(const Accuracy& accuracy, Stats& stats);
 
 }  // namespace onset

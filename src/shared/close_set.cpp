@@ -15,10 +15,10 @@
 namespace onset {
 namespace {
 
-// |w|_2 <= sqrt(3) |w|_inf, rounded up: beyond this the separation holds in either norm.
+// Returns a bound of |w|_2 / |w| in the norm in use: sqrt(3), rounded up, for the maximum norm.
 double norm_ratio(const Options& options) { return options.norm == Norm::maximum ? 0x1.bb67ae8584cabp+0 : 1; }
 
-// Rounded up, exact where there is nothing to add.
+// Returns the Euclidean separation of a pair, rounded up; exact where there is nothing to add.
 double separation_of(const CloseInput& in, const Pair& pair) {
   const int* v = pair.vertices.data();
   const int side = pair.kind == PairKind::vertex_face ? 1 : 2;
@@ -41,13 +41,13 @@ void check_d_hat(double d_hat, bool zero_allowed) {
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding) {
   double thickness = 0;
   if (!mesh.thickness.empty()) thickness = *std::max_element(mesh.thickness.begin(), mesh.thickness.end());
-  const double ratio = norm_ratio(options);  // thickness itself is added where a pair is looked at
+  const double ratio = norm_ratio(options);  // the thickness is added where a pair is looked at
   const double separation = ratio * options.min_separation + (ratio - 1) * 2 * thickness;
   return (separation + d_hat + rounding) * (1 + 0x1p-48);
 }
 
-// fl(lower - separation) <= d_hat + slack, rounded up, holds wherever the exact distance is below d_hat
-// plus the separation: `lower` is no larger, and rounding is monotonic.
+// No pair whose exact distance is at most its separation + d_hat is left out: `lower` is no larger, and
+// rounding is monotone (docs/theory.md, 19).
 void add_if_close(const CloseInput& in, PairKind kind, IdPair ids, std::vector<ClosePair>& close) {
   ClosePair p;
   static_cast<Pair&>(p) = {kind, ids.a, ids.b, pair_vertices(in.mesh.data(), kind, ids)};

@@ -1,4 +1,4 @@
-// Candidate pairs to those within d-hat at given positions.
+// The candidates that are within d-hat at given positions.
 #pragma once
 
 #include "onset/close_pairs.hpp"
@@ -10,15 +10,17 @@ namespace onset {
 // Throws std::invalid_argument unless d_hat is > 0 (or 0 where allowed) and at most 2^1020.
 void check_d_hat(double d_hat, bool zero_allowed);
 
-// Model length, rounded up: pairs whose exact distance at some time comes below this plus their thickness are
-// what a distance set of `d_hat` can hold, positions being off by `rounding` of a distance at most.
+// Returns a length of the model, rounded up. A distance set of `d_hat` holds only pairs that come closer than
+// this plus their thickness in exact motion, where storing positions changes distances by at most `rounding`.
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding);
 
 struct CloseInput {
   const Mesh& mesh;
-  const double* x;  // 4 doubles a vertex: x y z and one unused, in any order of axes
+  // 4 doubles a vertex: x y z and one unused, in any order of axes.
+  const double* x;
   double d_hat;
-  double slack;  // model length: pairs beyond d_hat by up to this are listed as well
+  // Pairs beyond d_hat by up to this are listed as well.
+  double slack;
   const Options& options;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kRowsATask = 512, kRowsAtOnce = 64;
 
-// Contacts [first, last) are of one kind, and at most kRowsAtOnce.
+// Adds the geometry of contacts [first, last), which are of one kind and at most kRowsAtOnce.
 void fill_geometry(const Motion& motion, InstructionSet instruction_set, Contact* first, Contact* last) {
   ContactGeometry geometry[kRowsAtOnce];
   std::array<int, 4> vertices[kRowsAtOnce];

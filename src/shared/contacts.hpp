@@ -1,4 +1,4 @@
-// From the pairs that a traversal found to contacts.
+// Contacts made of the pairs that a traversal found.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@
 
 namespace onset {
 
+// Copy a result, or a geometry, into the fields of a contact.
 void put(const PairResult& result, Contact& contact);
 void put(const ContactGeometry& geometry, Contact& contact);
 
-// Contact i of `set` is found[i]; counts those of each kind.
+// Makes contact i of `set` from found[i], which are sorted by `before`, and counts those of each kind.
 void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instruction_set,
                    const std::vector<FoundPair>& found, ActiveSet& set);
 

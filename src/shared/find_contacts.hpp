@@ -1,4 +1,4 @@
-// The contacts of a step: all of them, or what limits it.
+// The contacts of a step, all of them or those that limit it.
 #pragma once
 
 #include "src/shared/pair_traversal.hpp"
@@ -6,11 +6,11 @@
 
 namespace onset {
 
-// How many contacts Options::memory_limit lets an active set have.
+// Returns how many contacts Options::memory_limit lets an active set have.
 std::size_t most_contacts(const Options& options);
 
-// Every candidate of `setup`, whose boxes it may shrink, or those that can still matter: limiting, or all within a window. Fills the
-// counts and times of `stats`.
+// Decides the candidates of `setup` that can matter to what is collected, and fills counts and times of
+// `stats`. It may shrink the boxes of `setup`.
 TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect, Budget& budget, Stats& stats);
 
 }  // namespace onset

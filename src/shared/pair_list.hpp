@@ -1,4 +1,4 @@
-// Pairs found once, streamed again for every step size: a source that only remembers.
+// A list of pairs as a source: found once and streamed again for every step size.
 #pragma once
 
 #include <vector>
@@ -13,6 +13,7 @@
 
 namespace onset {
 
+// Streams the pairs that it holds, in batches, one a block.
 class PairList final : public PairSource {
  public:
   std::size_t blocks(PairKind kind) const override;
@@ -28,18 +29,18 @@ class PairList final : public PairSource {
   std::vector<IdPair> vertex_face_, edge_edge_;
 };
 
-// What the culls of `narrow` cannot certify goes into `list`.
+// A list for the pairs that the culls of `narrow` cannot certify.
 struct CulledList {
   const NarrowPhase& narrow;
   PairList& list;
 };
 
-// One traversal of `broad` for all lists; each has its pairs in the order of ids. No more than `most` in all, or none: then
-// returns false. Ends early where the budget is spent.
+// Fills all lists in one traversal of `broad`, each in the order of ids. Returns false, and leaves the lists
+// empty, where they would hold more than `most` pairs in all. It ends early where the budget is spent.
 bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most, Budget& budget);
 
-// The largest step of these pairs, in [0, upper], each keeping the share `gap_share` of its gap, stored in doubles, and the statistics. A motion
-// that cannot be used is an outcome.
+// Returns the largest step in [0, upper] on which each of these pairs keeps the share `gap_share` of its gap,
+// stored in doubles, with statistics. A motion that cannot be used is an outcome.
 StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs, const Options& options,
                    double gap_share, Budget& budget, double upper = 1);
 

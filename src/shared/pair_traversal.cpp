@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBlocksATask = 16;
 
-// Ids are not negative: one number orders a kind's pairs as (a, b) does.
+// One number orders pairs as (kind, a, b) does, since ids are not negative.
 std::uint64_t order(PairKind kind, IdPair pair) {
   return std::uint64_t(kind == PairKind::edge_edge) << 63 | std::uint64_t(pair.a) << 32 |
          std::uint64_t(pair.b);
@@ -30,7 +30,7 @@ struct Part {
   std::vector<PairResult> results;
 };
 
-// Sixteen bytes a pair are moved about, and each result once.
+// Sorts sixteen bytes a pair and moves each result once.
 std::vector<FoundPair> sorted(const std::vector<Part>& parts, std::size_t count) {
   struct Place {
     std::uint64_t order;
@@ -51,12 +51,12 @@ std::vector<FoundPair> sorted(const std::vector<Part>& parts, std::size_t count)
   return r;
 }
 
-// With a budget of checks, work comes in waves of so many blocks: all that a wave does follows from those
-// before it.
+// With a budget of checks, work comes in waves of so many blocks. What a wave does depends only on those
+// before it, so that it is the same for any number of threads.
 constexpr std::size_t kFirstWave = 16, kLargestWave = 1024;
-// Under a time limit, or where it can be cancelled: pairs between two looks at the budget.
+// So many pairs pass between two looks at a budget that time or the caller can end.
 constexpr std::size_t kWatchedPairs = 16;
-// Of the earliest contacts only: results a task holds before it hands them over.
+// Where only the earliest contacts are kept, a task hands over its results when it holds so many.
 constexpr std::size_t kHeldByATask = 1024;
 
 class PairTraversal {
@@ -97,7 +97,7 @@ class PairTraversal {
   struct Task {
     PairTraversal& traversal;
     PairKind kind;
-    NarrowPhaseStats& stats;  // of the traversal
+    NarrowPhaseStats& stats;  // of the whole traversal
     NarrowPhaseScratch scratch;
     std::vector<PairResult> results;  // where all are kept
     Limits limits;
@@ -131,7 +131,7 @@ class PairTraversal {
 
   std::size_t count(PairKind kind) const { return (pairs_.blocks(kind) + stride_ - 1) / stride_; }
 
-  // Every stride-th block.
+  // Traverses every stride-th block.
   void run(PairKind kind, std::size_t from, std::size_t to, NarrowPhaseStats& stats) {
     parallel_ranges(to - from, kBlocksATask, [&](std::size_t first, std::size_t last) {
       if (ended()) return;
@@ -153,7 +153,7 @@ class PairTraversal {
   double t_max() const {
     return budget_.counts_checks() ? wave_t_max_ : t_max_.load(std::memory_order_relaxed);
   }
-  // t_max is only ever an early-out: results do not depend on it.
+  // Results do not depend on how soon t_max falls: it only lets pairs be dropped early.
   void shrink_to(double limit) {
     ONSET_ASSERT(limit >= 0);
     double now = t_max_.load(std::memory_order_relaxed);
@@ -172,7 +172,7 @@ class PairTraversal {
     found_any_.store(true, std::memory_order_relaxed);
   }
 
-  // Hands over what the task has, results and statistics.
+  // Hands over the results and statistics of a task.
   void merge(Task& task) {
     const std::lock_guard<std::mutex> lock(mutex_);
     task.stats.add(task.scratch.stats);
@@ -314,7 +314,7 @@ void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats
 
 namespace {
 
-// Of a step that this pair limits.
+// Returns the outcome of a step that a pair with this one limits.
 Outcome outcome_of_step(PairOutcome outcome) {
   switch (outcome) {
     case PairOutcome::initial_contact:
@@ -357,7 +357,7 @@ void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget
   if (r.step > 0 && limits.clear && limits.clear->result.clear_from > r.step) limiting = &*limits.clear, r.step = 0;
   if (r.step > 0 && limits.clear) r.shortest = limits.clear->result.clear_from;
   if (limiting == nullptr) return;
-  // What starts apart, or parts, is held back at once by rounding alone.
+  // Only rounding holds back at once a pair that starts apart, or parts.
   if (r.step == 0 && limiting->result.outcome != PairOutcome::initial_contact) r.outcome = Outcome::below_rounding;
   r.limiting = to_pair(mesh, *limiting);
 }

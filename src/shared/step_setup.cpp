@@ -24,14 +24,14 @@ BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, co
 
 namespace {
 
-// Only trees and grids are worth keeping: swept and motion boxes in slots of their own.
+// Only trees and grids are worth keeping, those of swept boxes apart from those of motion boxes.
 bool is_kept(BroadPhaseMethod method) { return method != BroadPhaseMethod::brute; }
 std::size_t slot_of(BroadPhaseMethod method, BoxTest test) {
   return 2 * std::size_t(method == BroadPhaseMethod::hash) + std::size_t(test == BoxTest::swept);
 }
 
-// The one that an earlier call left, where its order will do. Under a budget of checks what is found depends
-// on the order: it must not depend on earlier calls.
+// Takes the broad phase that an earlier call left, where its order will do, else makes one. Under a budget of
+// checks what is found depends on the order, which must then not depend on earlier calls.
 std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const BroadPhaseInput& input,
                                              const Budget& budget) {
   if (input.mesh.broad_phases && is_kept(options.broad_phase) && !budget.counts_checks()) {
@@ -70,15 +70,15 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
   accuracy = accuracy_of(data, motion, options);
   note(accuracy, stats);
   reach = reported_within(accuracy.tolerance, accuracy.extent);
-  // With a separation, widened boxes round, and by how much depends on where the scene lies. Wider by the
-  // tolerance, boxes that just miss belong to pairs farther apart than any that is reported, unless it spends
-  // its checks: results do not depend on that rounding.
+  // Boxes widened for a separation round, depending on where the scene lies. With this margin, boxes that
+  // just miss belong to pairs farther apart than any that is reported with checks left, so that results do
+  // not depend on that rounding (docs/theory.md, 13.5).
   const bool widened = options.min_separation > 0 || !data.thickness.empty();
   const double margin = test != BoxTest::swept && widened ? reach : 0;
   whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
   tree.emplace(*whole);
   const bool has_static = data.filter->has_static();
-  const double share = has_static ? 1 : 0.5;  // boxes that are static are not widened: the others take all of it
+  const double share = has_static ? 1 : 0.5;  // static boxes are not widened by it: the others take all
   if (use != Use::contacts) rounding = rounding_of_distances(motion);
   if (use == Use::stored_step) widen(share * (reach + kStoredRoundings * rounding - margin));
   if (use == Use::candidates) widen(share * rounding);

@@ -1,4 +1,4 @@
-// What every call sets up: the motion, its accuracy and the broad phase.
+// What every call on a step sets up: the motion, its accuracy and the broad phase.
 #pragma once
 
 #include <memory>
@@ -13,30 +13,37 @@
 
 namespace onset {
 
-// Boxes of two primitives overlap wherever these come within min_separation + margin, thickness apart. The
-// margin changes with the motion; static primitives leave it to the others, so that their boxes can stay.
+// Returns the input for boxes that overlap wherever two primitives come within min_separation + margin +
+// thickness. The margin changes with the motion; static primitives leave it to the others, so that their
+// boxes can stay.
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test);
 
 struct StepSetup {
-  // contacts: pairs of the exact motion. stored_step: also pairs that storing a position could close. candidates: the swept boxes of
-  // these, for a caller who keeps them. close: as contacts, out to a distance.
+  // What boxes must reach (docs/theory.md, 13.5):
+  // - contacts: contacts of the exact motion.
+  // - stored_step: also pairs that storing a position could close.
+  // - candidates: such pairs too, by swept boxes, for a caller who keeps the list.
+  // - close: all pairs within a distance.
   enum class Use { contacts, stored_step, candidates, close };
 
   Motion motion;
+  // Null where the motion is not usable (motion.status) or no budget is left.
   std::shared_ptr<BroadPhase>
-      broad;  // empty where the motion is not usable (motion.status), or no budget is left
-  // The candidates of the whole step for contacts of the exact motion, and those that `broad` was made for; it may since have
-  // shrunk to t_max.
+      broad;
+  // The boxes of the whole step, for contacts of the exact motion (`whole`) and as `broad` was made (`tree`),
+  // which may since have shrunk to t_max.
   std::optional<BroadPhaseInput> whole, tree;
   Accuracy accuracy;
-  double rounding = 0;  // rounding_of_distances(motion), where the use asks for it
-  double reach = 0;     // model length: how far beyond what it must keep a pair can be reported that has checks left
+  // rounding_of_distances(motion), where the use asks for it.
+  double rounding = 0;
+  // How far beyond its separation a pair with checks left can be reported, a length of the model.
+  double reach = 0;
   Clock clock;
 
-  // Fills the statistics that are known before any pair is. No broad phase is made where the budget is spent.
-  // d_hat > 0: boxes reach as far as pairs of a distance set of d_hat, and at least of the tolerance, can be
-  // apart, positions rounded to doubles included.
+  // Sets all this up and fills the statistics that are known before any pair is. No broad phase is made where
+  // the budget is spent. With d_hat > 0, boxes reach as far as pairs of a distance set of d_hat, or of
+  // `reach` if that is more, can be apart, with positions rounded to doubles.
   StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use, Stats& stats,
         Budget& budget, double d_hat = 0);
   ~StepSetup();

@@ -1,4 +1,4 @@
-// All pairs of a source visited in parallel, with a state for each task and one merge of it.
+// Parallel visits of all pairs of a source.
 #pragma once
 
 #include <atomic>
@@ -13,8 +13,9 @@
 
 namespace onset {
 
-// visit(state, pairs, count) for each batch of a task's blocks, from any thread, `state` being the task's copy of `initial`;
-// then merge(state, blocks), for one task at a time. Once ended() says so, batches and tasks that have not begun are left out.
+// Calls visit(state, pairs, count) for each batch of a task's blocks, from any thread, where `state` is the
+// task's copy of `initial`, and then merge(state, blocks), for one task at a time. Once ended() is true,
+// batches and tasks that have not begun are left out.
 template <class State, class Visit, class Merge, class Ended>
 void visit_pairs(const PairSource& source, PairKind kind, std::size_t blocks_a_task, const State& initial,
                  const Visit& visit, const Merge& merge, const Ended& ended) {
@@ -37,15 +38,16 @@ void visit_pairs(const PairSource& source, PairKind kind, std::size_t blocks_a_t
   });
 }
 
-// All pairs of a source looked at in parallel, and what is found among them, within a budget of time and memory.
+// What is found among the pairs of a source, in no particular order.
 template <class Found>
 struct Gathered {
-  std::vector<Found> found;  // in no particular order
-  bool too_many = false;     // more than were to be kept: `found` is empty, and not all pairs were looked at
+  std::vector<Found> found;
+  // Whether there is more than was to be kept. `found` is then empty, and not all pairs were looked at.
+  bool too_many = false;
 };
 
-// visit(kind, pairs, count, found) appends to `found`, from any thread. Keeps `most` at most; a spent budget
-// ends it early, with what was found until then.
+// Gathers what visit(kind, pairs, count, found), called from any thread, appends to `found`: at most `most`.
+// A spent budget ends it early, with what was found until then.
 template <class Found, class Visit>
 Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kinds, std::size_t most,
                        Budget& budget, const Visit& visit) {

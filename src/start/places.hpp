@@ -1,4 +1,4 @@
-// Vertices that are at one place.
+// The places that more than one vertex is at.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace onset {
 
-// The vertices of each place that more than one is at, ascending; places by their first vertex. x is finite,
-// #V x 3.
+// Returns the vertices of each such place, ascending, and the places by their first vertex. x is #V x 3 and
+// finite.
 std::vector<std::vector<int>> shared_places(const Positions& x);
 
 }  // namespace onset

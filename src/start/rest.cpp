@@ -13,7 +13,7 @@ void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& b
   if (motion.status != Outcome::free || budget.spent()) return;
   const bool edge_face = pairs == Pairs::edge_face;
   BroadPhaseInput input{mesh.data(), motion};
-  // Half of the separation, rounded up; half of the smallest number is not 0.
+  // Half of the separation, rounded up. The last term keeps half of the smallest number from being 0.
   if (!edge_face && options.min_separation > 0)
     input.inflation = 0.5 * options.min_separation * (1 + 0x1p-50) + 0x1p-1074;
   input.test = BoxTest::swept;

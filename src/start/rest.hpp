@@ -1,4 +1,4 @@
-// What the calls on positions at rest set up: the pairs whose boxes meet where they stand.
+// What every call on positions at rest sets up: a motion that stays, and a broad phase.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,10 @@
 
 namespace onset {
 
+// Positions at rest, and the pairs whose boxes meet there.
 struct Rest {
-  Motion motion;  // that stays
-  // Null where the positions are not usable (motion.status), or no budget is left.
+  Motion motion;
+  // Null before `find`, and where positions are not usable (motion.status) or no budget is left.
   std::unique_ptr<BroadPhase> broad;
 
   Rest(const Mesh& mesh, const Positions& x) : motion(make_motion(mesh.data(), x, x)) {}
@@ -20,9 +21,9 @@ struct Rest {
   Rest& operator=(const Rest&) = delete;
   ~Rest();
 
-  // The pairs of a step that come within Options::min_separation and their thickness, or kEdgeFace with a
-  // common point.
+  // Pairs of a step within Options::min_separation and their thickness, or edges and faces that may meet.
   enum class Pairs { within_separation, edge_face };
+  // Makes `broad` for these pairs.
   void find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& budget);
 
   Outcome outcome(const Budget& budget) const {

@@ -1,4 +1,4 @@
-// What the calls on positions at rest look for, within one budget.
+// The searches in positions at rest, each within a budget.
 #pragma once
 
 #include "onset/close_pairs.hpp"
@@ -8,16 +8,17 @@
 
 namespace onset {
 
-// Edges and faces with a common point, ordered by (edge, face); `rest` was asked to find Pairs::edge_face.
+// Finds edges and faces with a common point, ordered by (edge, face). `rest` must hold Pairs::edge_face.
 Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, std::size_t most,
                                           Budget& budget);
 
-// Vertex-face and edge-edge pairs that touch (distance and gap 0), or are within their separation, or beyond
-// it by no more than rounding, ordered by (kind, a, b); `rest` was asked to find Pairs::within_separation.
+// A pair that touches exactly, or is within its separation up to rounding.
 struct NearPair {
   ClosePair pair;
   bool touches;
 };
+// Finds these among vertex-face and edge-edge pairs, ordered by (kind, a, b). `rest` must hold
+// Pairs::within_separation.
 Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most,
                              Budget& budget);
 

@@ -32,7 +32,7 @@ std::string named(const Pair& p) {
   return edge(p.a, v) + " and " + edge(p.b, v + 2);
 }
 
-// Copies at a seam are what makes whole neighbourhoods touch.
+// Copied vertices at a seam make whole neighbourhoods touch.
 std::string seam_hint(const StartReport& report) {
   return report.copied_vertices.empty() ? "" : "; copied vertices make many of these: mend them first";
 }
