@@ -1,4 +1,4 @@
-// The whole kernel text, in the order it builds up; included once per instruction set by kernel_scalar.cpp and kernel_avx2.cpp.
+// The whole kernel text in the order it builds up, included by kernel_scalar.cpp and kernel_avx2.cpp.
 #include "base/simd/pack.hpp"
 #include "narrowphase/kernel/kernel.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 
 #include "narrowphase/kernel/contact_geometry.inl"
 
-// K corners: 3 of a vertex-face pair, 4 of two edges.
+// K is the number of corners: 3 of a vertex-face pair, 4 of two edges.
 template <int K>
 constexpr KernelsOfKind kKernels{cull_all<K>, advance_all<K>, certify_all<K>, contact_geometry_all<K>, closest_direction_of<K>};
 
