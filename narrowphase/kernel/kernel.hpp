@@ -29,7 +29,7 @@ struct KernelPairs {
   double gap_share, storing;
   // kStoredRoundings times that bound for all pairs, for the culls; 0 where storing is 0.
   double cull_beyond;
-  // The culls may drop what is certified apart until cull_t_max, advancement what is so beyond t_max.
+  // The culls may drop pairs that are apart until cull_t_max, advancement those apart until after t_max.
   double cull_t_max;
   double t_max;
   bool maximum_norm;
