@@ -8,9 +8,8 @@
 namespace onset {
 namespace {
 
-// The differences of the two primitives: a triangle or a parallelogram, and the cube of half width d, scaled
-// so that none is above 4 and differences do not overflow. What underflows is off by 2^-1074, far less than
-// rounding counts for here.
+// The differences of the two primitives, a triangle or a parallelogram, and the cube of half width d, scaled
+// so that none is above 4. Underflow, 2^-1074, is far less than rounding counts for here.
 struct Differences {
   Vec corner[4];
   int count;
@@ -31,8 +30,9 @@ struct Differences {
     d = half_width * scale;
   }
 
-  // Whether the polygon is beyond the cube in direction m (any doubles), which reaches d |m|_1. A term of the
-  // product carries 4 roundings, the reach 4: below 13u |m| |corner| + 5u d |m|_1 in the largest coordinates.
+  // Tells whether the polygon is beyond the cube, which reaches d |m|_1, in direction m, any doubles.
+  // Products err by 13u |m| |corner| in the largest coordinates, the reach by 5u d |m|_1 (docs/theory.md,
+  // §19).
   bool beyond(const Vec& m) const {
     const double reach = d * sum_of_magnitudes(m);
     double least = INFINITY, most = -INFINITY, farthest = 0;

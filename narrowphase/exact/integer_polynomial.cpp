@@ -31,7 +31,7 @@ IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial&
 
 namespace {
 
-// Without the common factor of its coefficients.
+// Divides by the common factor of the coefficients.
 IntegerPolynomial primitive(const IntegerPolynomial& p) {
   Integer common = 0;
   for (int i = 0; i <= p.degree(); ++i) common = gcd(common, p[i]);
@@ -60,7 +60,7 @@ Division pseudo_divide(const IntegerPolynomial& p, const IntegerPolynomial& d) {
 
 using Coefficients = std::vector<Integer>;
 
-// The coefficients, up to a positive factor, in the Bernstein basis on [k, k + 1] / 2^depth.
+// Returns the Bernstein coefficients on [k, k + 1] / 2^depth, up to a positive factor.
 Coefficients bernstein(const IntegerPolynomial& p, const Integer& k, unsigned depth) {
   const int n = p.degree();
   Coefficients c;
@@ -79,7 +79,7 @@ Coefficients bernstein(const IntegerPolynomial& p, const Integer& k, unsigned de
   return b;
 }
 
-// Both halves, each multiplied by 2^degree.
+// Computes both halves, each multiplied by 2^degree.
 void halve(const Coefficients& b, Coefficients& left, Coefficients& right) {
   const std::size_t n = b.size() - 1;
   Coefficients row = b;
@@ -102,7 +102,8 @@ int sign_changes(const Coefficients& b) {
   return changes;
 }
 
-// The roots in the open interval. Ends for square-free p: small intervals have at most one sign change.
+// Finds the roots in the open interval. It ends for square-free p: small intervals have at most one sign
+// change.
 void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k, unsigned depth,
              std::vector<IsolatedRoot>& roots) {
   const int changes = sign_changes(b);
@@ -122,8 +123,8 @@ void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k
 
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial a, IntegerPolynomial b) {
   while (!b.is_zero()) {
-    // Degrees are at most 3: coefficients without their common factors grow eightfold in length, which is
-    // cheaper.
+    // Degrees are at most 3, and coefficients grow at most eightfold in length: that is cheaper than common
+    // factors.
     IntegerPolynomial r = a.degree() < b.degree() ? a : pseudo_divide(a, b).remainder;
     a = std::move(b);
     b = std::move(r);
@@ -178,7 +179,7 @@ bool has_one_sign(const Coefficients& b) {
 }
 
 // Halves the root's interval until g has one sign in it, at most `rounds` times (< 0: as long as it takes);
-// g's sign, or 0.
+// returns g's sign, or 0.
 int narrow_to_one_sign(const IntegerPolynomial& g, IsolatedRoot& root, int rounds) {
   Coefficients p = bernstein(root.p, root.k, root.depth), left_p, right_p;
   Coefficients b = bernstein(g, root.k, root.depth), left, right;
@@ -207,7 +208,7 @@ int sign_at(const IntegerPolynomial& g, IsolatedRoot& root) {
   if (g.degree() < 1) return g.is_zero() ? 0 : g[0].sign();
   constexpr int kCheap = 6;
   if (const int s = narrow_to_one_sign(g, root, kCheap); s != 0 || root.exact) return s;
-  // The only root that the common divisor can have in the interval is this one, and it is simple.
+  // The common divisor can have no root in the interval but this one, and it is simple.
   const IntegerPolynomial common = greatest_common_divisor(root.p, g);
   if (common.degree() > 0 && sign_at(common, root.k, root.depth) != sign_at(common, root.k + 1, root.depth))
     return 0;

@@ -23,8 +23,8 @@ bool on_segment(const PointAndSegment<C>& s) {
   return sign_of(exact_dot<M>(s.w, difference(s.e, s.w))) >= 0;
 }
 
-// Given q.(a x b) = 0. With n = a x b != 0 on axis k, U n = q x b and V n = a x q hold on that axis alone.
-// Coordinates of q, a, b below 2^c: M holds 2^(2c + 3).
+// Tells whether they touch, given q.(a x b) = 0. With n = a x b != 0 on axis k, U n = q x b and V n = a x q
+// hold on that axis alone (docs/theory.md, L38). Coordinates of q, a, b below 2^c: M holds 2^(2c + 3).
 template <class M, class C>
 bool coplanar_touch(PairKind kind, const RelativeVectors<C>& r) {
   const std::array<M, 3> n = exact_cross<M>(r.a, r.b), u = exact_cross<M>(r.q, r.b),
