@@ -6,12 +6,13 @@
 
 namespace onset {
 
-// The latest time certified from `t` on: the pair is farther apart than `wanted` (scaled as the corners) on
-// [t, result]. Equal to t when nothing is certified. Tries [t, 1] and shorter intervals.
+// Returns the latest time until which the pair is certified from `t` on; `t` for none. Its distance is then
+// more than wanted - 8 u rho (maximum norm: `wanted`, if that is 30 u rho or more). As delta/2 >= 58 u rho,
+// it is beyond d for wanted = d + delta/2 (docs/theory.md, L19).
 //
-// A direction that stays perpendicular to an edge through the interval, w(s) = m x e(s) with m constant, sees
-// the gap at full relative accuracy however the edge turns. w(s).c(s) = m.(e(s) x c(s)), a quadratic in s,
-// the same for the two corners that differ by e: two vector quadratics in all.
+// A direction w(s) = m x e(s), m constant, is perpendicular to an edge however that turns, and sees the gap
+// at full relative accuracy. w(s).c(s) = m.(e(s) x c(s)) is a quadratic, the same for corners that differ by
+// e.
 double certify_interval(const Corners& corners, double t, double wanted, bool maximum_norm);
 
 }  // namespace onset

@@ -13,8 +13,7 @@
 namespace onset {
 namespace {
 
-// With fewer checks than this a pair may be reported far from contact, and t_max could hide it: then it
-// is not used.
+// With fewer checks a pair may be reported far from contact, and t_max could hide it: it is not used then.
 constexpr std::int64_t kChecksForTMax = 1000;
 
 double power_of_two_near_one_over(double x) {
@@ -58,8 +57,8 @@ NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
   if (input.for_many) rounded_ = round_positions(input.motion, scale_);
 }
 
-// Advancement stops within max(tolerance, 16 E7), E7 = 7.25u rho with rho <= sqrt(3) extent: 201u extent; the
-// inclusion root finder within that and its corners' errors.
+// Advancement stops within max(tolerance, 16 E7), 16 E7 <= 201u extent (docs/theory.md, L18); the inclusion
+// root finder within that and its corners' errors (L22).
 double reported_within(double tolerance, double extent) {
   return std::max(tolerance, 0x1p-45 * extent + 0x1p-1070) * (1 + 0x1p-40);
 }
@@ -90,8 +89,8 @@ void NarrowPhase::gather(PairKind kind, const IdPair* pairs, std::size_t count,
 KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                                  NarrowPhaseScratch& scratch) const {
   gather(kind, pairs, count, scratch);
-  // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
-  // tolerance to use.
+  // The inclusion root finder takes over after one check, which finds the pairs that start within d, and the
+  // tolerance.
   const bool inclusion_only = in_.inclusion_only();
   return {in_.motion.x.data(),
           rounded_.data(),
@@ -157,7 +156,7 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   }
 }
 
-// What the exact motion says of the pairs that `results` are of, too: within the tolerance the two can differ. A pair that is free after
+// Asks the exact motion of the same pairs, too: within the tolerance it can differ. A pair that is free after
 // its first check is so with a smaller demand from the same look.
 void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const {
   scratch.touches.assign(std::size_t(survivors), 0);

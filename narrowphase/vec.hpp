@@ -1,5 +1,5 @@
-// Three doubles (or double-doubles) with the few operations that scalar certificates need. Sums run in the
-// kernels' order.
+// Three doubles (or double-doubles) with the operations of scalar certificates. Sums run in the kernels'
+// order.
 #pragma once
 
 #include "base/unit_roundoff.hpp"
