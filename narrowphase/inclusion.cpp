@@ -11,12 +11,10 @@ namespace {
 constexpr double kEta = 0x1p-1074;
 
 // A part of the domain with F at its corners. Edge-edge: a box of (t, u, v), corner 4 it + 2 iu + iv.
-// Vertex-face: an interval of t times a part of the triangle, corner 3 it + j; bisecting the triangle keeps
-// corners in the prism.
+// Vertex-face: an interval of t times a part of the triangle, corner 3 it + j.
 //
-// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two corners (paper,
-// eq. 6, without re-evaluation). Its running bound is |m^ - m| <= (e + e)/2 + u |m^| + eta/2 per axis
-// (docs/theory.md, L20).
+// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two (paper, eq. 6);
+// |m^ - m| <= (e + e)/2 + u |m^| + eta/2 per axis (docs/theory.md, L20).
 struct Box {
   double f[8][3];
   double error[3];
@@ -56,7 +54,7 @@ class Search {
         root.f[k][a] = begin[k][a];
         root.f[per_end_ + k][a] = in_.corners.c[1][k][a];
       }
-    // A corner at t_begin carries 4 roundings; 4.25 covers second order.
+    // 4 roundings; 4.25 covers second order.
     for (int a = 0; a < 3; ++a)
       root.error[a] = 4.25 * kU * largest(root, a) * (1 + 0x1p-50) + kEta + corner_floor(a);
     root.t0 = in_.t_begin;
@@ -82,15 +80,15 @@ class Search {
 
   std::size_t boxes_in_use() const { return boxes_.size() - free_.size(); }
 
-  // Returns the largest change of F on an axis between corners i and j.
+  // The largest change of F on an axis.
   static double change(const Box& b, int i, int j) {
     double m = 0;
     for (int a = 0; a < 3; ++a) m = std::max(m, std::fabs(b.f[i][a] - b.f[j][a]));
     return m;
   }
 
-  // Tells whether the box of F's corners, grown by the error, misses the ball (or cube) of radius d (paper,
-  // line 9; docs/theory.md, L21).
+  // Whether the box of F's corners, grown by the error, misses the ball (or cube) of radius d (paper, line 9;
+  // docs/theory.md, L21).
   bool separated(const Box& b) const {
     const double d = in_.separation;
     double squares = 0;
@@ -106,8 +104,8 @@ class Search {
     return separated_along_axes(b);
   }
 
-  // Any direction n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too: here the pair's normal
-  // and the mean of the corners.
+  // Any n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too: the pair's normal, the mean of
+  // the corners.
   bool separated_along_axes(const Box& b) const {
     double u[3], v[3], n[3], mean[3] = {};
     const int k = per_end_;
@@ -138,8 +136,8 @@ class Search {
     return std::max(lo, -hi) > wanted;
   }
 
-  // Tells whether every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line 15;
-  // docs/theory.md, L22), or the box is too narrow to halve.
+  // Whether every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line 15;
+  // docs/theory.md, L22), or it is too narrow to halve.
   bool small(const Box& b) const {
     const double middle = 0.5 * (b.t0 + b.t1);
     const bool can_halve = b.t0 < middle && middle < b.t1;

@@ -1,5 +1,4 @@
-// The paper's inclusion root finder (Algorithm 2; minimum separation, section 6), the last resort
-// (docs/theory.md, §11).
+// The paper's inclusion root finder (Algorithm 2; section 6), the last resort (docs/theory.md, §11).
 #pragma once
 
 #include "base/unit_roundoff.hpp"
@@ -14,8 +13,7 @@ struct InclusionInput {
   const Corners& corners;
   // The search covers [t_begin, 1].
   double t_begin = 0;
-  // The separation d and the tolerance delta > 0, scaled as the corners are: boxes of width delta/2 that may
-  // hold a root are accepted.
+  // d and delta > 0, scaled as the corners are: boxes of width delta/2 that may hold a root are accepted.
   double separation = 0;
   double tolerance = 0;
   bool maximum_norm = false;
@@ -24,15 +22,15 @@ struct InclusionInput {
 
 struct InclusionResult {
   enum class End { free, contact, max_checks } end = End::free;
-  // The pair is certified apart on [t_begin, t); contact: some point is within d + delta near t.
+  // Certified apart on [t_begin, t); contact: some point is within d + delta near t.
   double t = 1;
-  // Contact and max_checks: a scaled upper bound of the distance at t.
+  // Contact and max_checks: a scaled upper bound at t.
   double distance = 0;
   std::int64_t checks = 0;  // boxes examined
 };
 
 // Takes boxes by their first time, deepest first on ties: the first accepted one is the answer, and a spent
-// budget, or a search that needs more than kInclusionBoxes boxes at once, returns the smallest time left.
+// budget, or kInclusionBoxes boxes in memory, returns the smallest time left.
 inline constexpr int kInclusionBoxes = 1 << 14;
 InclusionResult find_first_inclusion(const InclusionInput& input);
 

@@ -33,7 +33,7 @@ bool same_at_both_ends(const Corners& corners) {
   return true;
 }
 
-// The plane of the pair at t = 0, of the face or both edges' directions, and the exact side of it.
+// The plane of the face or both edges' directions at t = 0, and the pair's exact side of it.
 struct Side {
   Vec normal;
   int sign;  // of normal . c_k
@@ -54,8 +54,8 @@ Side side_at_start(const InitialCase& c) {
   return {unit(cross(edge(0), edge(1))), sign};
 }
 
-// Returns a direction n with n.c >= -noise at both times, strictly positive at the second: the mean of the
-// feasible extreme rays of that cone; zero where there is none.
+// Returns n with n.c >= -noise at both times, > 0 at the second: the mean of that cone's extreme rays; else
+// 0.
 Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, double noise) {
   Vec p[8];
   int count = 0;
@@ -81,8 +81,7 @@ Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, doubl
   return unit(total);
 }
 
-// Returns the latest time, by halving, until which the pair parts along a direction chosen for it; t for
-// none.
+// Returns the latest time found until which the pair parts along a direction chosen for it; t for none.
 template <class Parts>
 double latest(double t, Parts&& parts) {
   double length = 1 - t;
@@ -135,8 +134,8 @@ Parting find_parting(const InitialCase& c) {
     }
     if (reached == r.t) return r;
     r.t = reached;
-    // 8u rho is taken off where up to 15u rho is due, and in the maximum norm |n|_1 does not divide. That
-    // does no harm: certificates prove everything after t again.
+    // This takes off 8u rho where up to 15u rho is due, and in the maximum norm does not divide by |n|_1:
+    // that is harmless, as later certificates prove everything again.
     r.excess = Hull(c.corners, r.t).least(n) - 8 * kU * c.corners.rho - c.separation;
     r.apart = r.excess > 0;
     if (r.apart) return r;

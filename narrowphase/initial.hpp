@@ -24,19 +24,19 @@ struct InitialCase {
 };
 
 // Until `t` the pair comes no closer than 184u rho below its distance at t = 0, or 120u rho below the
-// certified lower bound of that (Euclidean norm; the maximum norm can lose 70u rho a round, docs/theory.md,
-// (17.1)). apart: at t it is beyond d by `excess`, and advancement can go on from there.
+// certified lower bound of that (Euclidean norm; the maximum norm can lose 70u rho a round; docs/theory.md,
+// (17.1)). apart: at t it is beyond d by `excess`, so advancement can go on from there.
 struct Parting {
   double t = 0;
   bool apart = false;
   double excess = 0;
 };
 
-// Along the closest direction the least product with a corner is a concave function of time and a lower bound
-// of the distance: where it is no less later than at the start, it was no less between. Where this is noise,
-// a direction n that has the whole pair on its positive side, at 0 up to rounding and strictly at t, keeps it
-// there in between; the side is decided exactly, and so is that the pair does not touch before t. Motion that
-// stays in touch is pressing, unless nothing moves.
+// Decides whether the motion parts the pair. Along the closest direction the least product with a corner is
+// concave in time and a lower bound of the distance: where it is no less later, it was no less in between.
+// Where it is noise, a direction must have the whole pair on its positive side, at 0 up to rounding and
+// strictly at t; the side, and that the pair does not touch before t, are decided exactly. Motion that stays
+// in touch is pressing, unless nothing moves.
 Parting find_parting(const InitialCase& c);
 
 }  // namespace onset

@@ -30,8 +30,8 @@ constexpr EdgeView kVertexFace[] = {{0, {0, 1}, {2, 2}}, {1, {1, 2}, {0, 0}}, {2
 
 constexpr int kPoints = 6;
 
-// Returns the direction with the largest smallest cosine to all points, by trying the bisector of every pair
-// and the centre of every triple. Any direction is safe.
+// Returns the direction with the largest smallest cosine to all points, by trying all bisectors and centres
+// of triples. Any is safe.
 Vec centre_of_cap(const Vec (&points)[kPoints]) {
   Vec direction[kPoints];
   for (int i = 0; i < kPoints; ++i) {
@@ -79,7 +79,7 @@ class Interval {
   Vec corner(int k, int end) const { return vec(corners_.c[end][k]); }
   Vec edge(int i, int end) const { return vec(corners_.e[end][i]); }
 
-  // Returns the corner of a class that stays nearer: its products carry the smaller error.
+  // The corner that stays nearer has the smaller error.
   int nearer(const int (&members)[2]) const {
     const auto size = [&](int k) {
       const Vec r = largest(corner(k, 0), corner(k, 1));

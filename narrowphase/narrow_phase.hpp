@@ -23,14 +23,14 @@ struct NarrowPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
   double tolerance;  // model length, > 0
-  double extent;  // about the largest corner difference in the scene
+  double extent;     // about the largest corner in the scene
   const Options& options;
   // At Exactness::exact toi and toi_hi of every contact are adjacent doubles.
   bool exact_times = false;
   // There are enough pairs for a pass over all vertices first.
   bool for_many = false;
-  // The end of the step is stored in doubles, and results have a stored_limit: each pair keeps `gap_share`,
-  // in [0, 1), of its initial gap as well. `rounding` is rounding_of_distances(motion).
+  // The step's end is stored: results have a stored_limit, and each pair keeps `gap_share`, in [0, 1), of its
+  // initial gap. `rounding` is rounding_of_distances(motion).
   bool stored = false;
   double gap_share = 0, rounding = 0;
   // Other pairs have no toi; null: all may have one.
@@ -40,15 +40,16 @@ struct NarrowPhaseInput {
   bool inclusion_only() const { return options.narrow_phase == NarrowPhaseMethod::inclusion; }
 };
 
-// Returns how far beyond what it must keep a pair is reported, model length, unless it has spent its checks.
+// How far beyond what it must keep a pair is reported, model length, unless its checks are spent.
 double reported_within(double tolerance, double extent);
 
 // A pair that is not certified free.
 struct PairResult {
   IdPair pair;
-  // The pair is certified apart on [0, toi); 0 for initial outcomes, infinite where only stored_limit is not.
+  // Certified apart on [0, toi); 0 for initial outcomes, infinite where only stored_limit is not.
   double toi;
-  // How far this pair lets the exact motion go: toi, or for initial_separating the next contact, if any.
+  // How far it lets the exact motion go: toi, or for initial_separating the next contact, infinite if there
+  // is none.
   double step_limit;
   // Distance beyond the separation at which it was reported, model length.
   double tolerance;
@@ -65,16 +66,16 @@ struct PairResult {
 struct NarrowPhaseStats {
   std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, gave_up = 0, checks = 0,
                most_checks = 0;
-  IdPair worst{-1, -1};  // the first pair with most_checks
+  IdPair worst{-1, -1};                      // the first pair with most_checks
   std::array<std::int64_t, 16> histogram{};  // of checks
   double achieved_tolerance = 0;
-  // The least share of its gap that a pair is sure to keep once it is stored, and that pair; 0 where its step
-  // is 0, 1 where all keep what was asked for.
+  // The least share of its gap that a pair is sure to keep once stored: 0 where its step is 0, 1 where all
+  // keep what was asked for.
   double least_share = 1;
   IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
   void note_checks(IdPair pair, std::int64_t checks);  // >= 1
-  void note_outcome(const PairResult& result);  // gave_up, achieved_tolerance
+  void note_outcome(const PairResult& result);         // gave_up, achieved_tolerance
 };
 
 // What one thread keeps between batches.
@@ -82,8 +83,8 @@ struct NarrowPhaseScratch {
   std::vector<int> vertices, survivors;  // 4 ids a pair
   std::vector<double> separation;
   std::vector<KernelResult> results;
-  // Where steps are stored: rows that the exact motion is asked about, their places among the results, and
-  // whether they touch.
+  // Where steps are stored: the rows that the exact motion is asked about, their places, and whether they
+  // touch.
   std::vector<KernelResult> exact_results;
   std::vector<int> asked, places;
   std::vector<char> touches;
@@ -94,15 +95,14 @@ class NarrowPhase {
  public:
   explicit NarrowPhase(const NarrowPhaseInput& input);
 
-  // Pairs certified apart beyond these may be left out; the results of the others do not depend on them.
+  // Pairs certified apart beyond these may be left out; no other result depends on them.
   struct TMax {
     double culls = 1, advancement = 1;
   };
-  // Appends the pairs of the batch that are not free, in its order. Callers count contacts and outcomes: they
-  // may drop some.
+  // Appends the pairs that are not free, in the batch's order; callers count contacts, as they may drop some.
   void process(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max, NarrowPhaseScratch& scratch,
                std::vector<PairResult>& out) const;
-  // Appends the pairs of the batch that the culls cannot certify as free.
+  // Appends the pairs that the culls leave.
   void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
             std::vector<IdPair>& out) const;
   bool uses_t_max() const;

@@ -1,4 +1,4 @@
-// One pair that advancement did not certify as free: is it a contact, when, and how far does it let a step go?
+// One pair that is not certified free: is it a contact, when, and how far does it let a step go?
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace onset {
 
-// Share of the tolerance: advancement converges so fast that it costs about one check, and most pairs that
-// pass within the tolerance without touching are then told apart.
+// Share of the tolerance: so sharp a look costs about one check more, and tells most pairs that pass within
+// the tolerance from contacts.
 constexpr double kSharpness = 0.0625;
-// Share of the pair's size that is given away at most: hand-made near misses have gaps of 1e-11 of it.
+// Share of the pair's size: hand-made near misses have gaps of 1e-11 of it.
 constexpr double kSharpest = 0x1p-38;
 
 // 16 E7, of rho: advancement tells no less (docs/theory.md, (9.2)).
@@ -26,7 +26,6 @@ constexpr double kStartNoise = 16 * 0x1p-53;
 // The same pairs on the exact motion.
 KernelPairs without_storing(KernelPairs pairs, double t_max);
 
-// What is asked: row `row` of a batch of one kind.
 struct PairQuestion {
   const NarrowPhaseInput& in;
   const KernelsOfKind& kernels;
@@ -41,20 +40,19 @@ class PairDecision {
   PairDecision(const PairQuestion& question, NarrowPhaseStats& stats)
       : in_(question.in), kernels_(question.kernels), pairs_(question.pairs), asked_(question), stats_(stats) {}
 
-  // Finds the contact of the exact motion, none where it is free. Advancement left the pair as `checked`; it
-  // is apart, or parting, until `from`. The stages, each of which may end it, are those of
-  // docs/architecture.md: exact first, push on, search, prove, report.
+  // Finds the contact of the exact motion. Advancement left the pair as `checked`, apart or parting until
+  // `from`. The stages, each of which may end it, are exact first, push on, search, prove, report
+  // (docs/architecture.md, "A pair's way").
   std::optional<PairResult> contact(const KernelResult& checked, double from = 0);
 
-  // Finds how far the pair lets a step go whose end is stored, and the contact of its exact motion.
+  // Finds how far the pair lets a stored step go, and the contact of its exact motion.
   std::optional<PairResult> stored_step(const KernelResult& checked);
 
-  // Gives a contact found at Exactness::exact its exact time: adjacent doubles toi and toi_hi.
+  // Gives a contact its exact time: adjacent doubles toi and toi_hi.
   void sharpen(PairResult& result) const;
 
  private:
-  // The scaled distance at one time is in [lower, upper]; along w, of length 1, all corners are beyond about
-  // `lower`.
+  // The scaled distance is in [lower, upper]; along w, of length 1, all corners are beyond about `lower`.
   struct Bounds {
     double lower, upper;
     Vec w;
@@ -68,7 +66,7 @@ class PairDecision {
 
   KernelResult push_on(KernelResult r) const;
   KernelResult search(KernelResult found);
-  // Pushes on and searches. `searched`: the bound of the distance is that of the inclusion root finder.
+  // Pushes on and searches. `searched`: the inclusion root finder bounds the distance.
   KernelResult carry_on(const KernelResult& checked, bool& searched);
   PairResult report(KernelResult found, const ExactAnswer& exact, double from, bool searched) const;
   PairResult contact_at_start(const Bounds& start, const KernelResult& found, const ExactAnswer& exact);

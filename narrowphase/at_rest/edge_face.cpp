@@ -13,19 +13,18 @@ namespace {
 
 Vec point(const double* p) { return {{p[0], p[1], p[2]}}; }
 
-// Returns the sign of a number within `bound` of x; 0: open, as where x or the bound is not finite.
+// Returns the sign of a number within `bound` of x; 0: open, also where one is not finite.
 int certain_sign(double x, double bound) {
   if (!(std::fabs(x) > bound && std::fabs(x) <= std::numeric_limits<double>::max())) return 0;
   return x > 0 ? 1 : -1;
 }
 
-// Bounds the error of fl((a x b).c) by 49u A B C and underflow, where a, b, c are rounded differences of
-// points and no coordinate of theirs is larger than A, B, C; 2^-46 = 128u leaves room for the rounding here
-// (docs/theory.md, §19). Where anything overflows, the result is not finite.
+// Bounds the error of fl((a x b).c), 49u A B C and underflow, for rounded differences a, b, c of points with
+// components up to A, B, C (docs/theory.md, §19); not finite where anything overflows.
 double volume_bound(double A, double B, double C) { return 0x1p-46 * ((A * B + 0x1p-1000) * C) + 0x1p-1070; }
 
-// Tells whether a plane of normal m, any doubles, has the points p on one side and the points q on the other.
-// m.(p_i - q_j) errs by 13u |m| |p - q| in the largest coordinates, against 2^-48 = 32u.
+// Tells whether a plane of normal m, any doubles, has the points p on one side and q on the other. m.(p_i -
+// q_j) errs by 13u |m| |p - q| in the largest coordinates.
 bool separates(const Vec& m, const Vec* p, int p_count, const Vec* q, int q_count) {
   const double size = largest_component(m);
   int side = 0;
@@ -39,15 +38,13 @@ bool separates(const Vec& m, const Vec* p, int p_count, const Vec* q, int q_coun
   return true;
 }
 
-// What rounding leaves no doubt about.
 struct Quick {
   bool decided;
   EdgeFace answer;
 };
 constexpr Quick kOpen{false, EdgeFace::apart}, kApart{true, EdgeFace::apart};
 
-// With ends on different sides of the plane, the line meets the face iff it passes its three sides on one
-// side.
+// The ends are on different sides of the plane: the line meets the face iff it passes all sides on one side.
 Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   const Vec d = e[1] - e[0], r[3] = {f[0] - e[0], f[1] - e[0], f[2] - e[0]};
   const double R = std::max(std::max(largest_component(r[0]), largest_component(r[1])), largest_component(r[2]));
@@ -61,7 +58,7 @@ Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   return positive == 3 || negative == 3 ? Quick{true, EdgeFace::crossing} : kOpen;
 }
 
-// Tells whether an edge near the face's plane is apart within it: beyond a side, or the face beyond its line.
+// Tells whether an edge is beyond a side of the face within its plane, or the face beyond its line.
 bool apart_in_plane(const Vec& n, const Vec (&e)[2], const Vec (&f)[3]) {
   for (int i = 0; i < 3; ++i)
     if (separates(cross(n, f[(i + 1) % 3] - f[i]), e, 2, f, 3)) return true;
@@ -82,7 +79,7 @@ Quick quick_answer(const EdgeAndFace& pair) {
 
 bool before(const double* p, const double* q) { return std::lexicographical_compare(p, p + 3, q, q + 3); }
 
-// Decides two segments on one line, along which points are in the order of their coordinates.
+// Along the line points are in the order of their coordinates.
 EdgeFace on_one_line(const double* e0, const double* e1, const double* first, const double* last) {
   if (before(e1, e0)) std::swap(e0, e1);
   const double *from = before(e0, first) ? first : e0, *to = before(last, e1) ? last : e1;
@@ -130,7 +127,7 @@ EdgeFace edge_face(const EdgeAndFace& pair) {
 
 bool exactly_collinear(const double* p, const double* q, const double* r) {
   const Vec a = point(q) - point(p), b = point(r) - point(p), n = cross(a, b);
-  // A component errs by 8u |a| |b| in the largest coordinates, against 2^-49 = 16u.
+  // A component errs by 8u |a| |b| in the largest coordinates.
   const double bound = 0x1p-49 * (largest_component(a) * largest_component(b)) + 0x1p-1070;
   for (int k = 0; k < 3; ++k)
     if (certain_sign(n[k], bound) != 0) return false;

@@ -13,9 +13,9 @@ enum class EdgeFace : std::uint8_t {
   overlapping,  // a segment
 };
 
-// Three finite coordinates a point, of any magnitude. An edge of length zero and a face without area are the
-// points and segments that they are. An answer takes some 20 ns where rounding leaves no doubt, about a
-// microsecond where it does, tens of them where magnitudes differ by more than 2^100.
+// Points have three finite coordinates of any magnitude. An edge of length zero and a face without area are
+// the points and segments that they are. An answer takes 20 ns where rounding leaves no doubt, else about a
+// microsecond, tens of them where magnitudes differ by more than 2^100.
 struct EdgeAndFace {
   const double *e[2], *f[3];
 };

@@ -8,8 +8,7 @@
 namespace onset {
 namespace {
 
-// The differences of the two primitives, a triangle or a parallelogram, and the cube of half width d, scaled
-// so that none is above 4. Underflow, 2^-1074, is far less than rounding counts for here.
+// The polygon of differences and the cube of half width d, scaled so that none is above 4.
 struct Differences {
   Vec corner[4];
   int count;
@@ -30,9 +29,8 @@ struct Differences {
     d = half_width * scale;
   }
 
-  // Tells whether the polygon is beyond the cube, which reaches d |m|_1, in direction m, any doubles.
-  // Products err by 13u |m| |corner| in the largest coordinates, the reach by 5u d |m|_1 (docs/theory.md,
-  // §19).
+  // Tells whether the polygon is beyond the cube in direction m, any doubles. Products err by 13u |m|
+  // |corner| in the largest coordinates, the reach d |m|_1 by 5u (docs/theory.md, §19).
   bool beyond(const Vec& m) const {
     const double reach = d * sum_of_magnitudes(m);
     double least = INFINITY, most = -INFINITY, farthest = 0;

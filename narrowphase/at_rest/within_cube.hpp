@@ -5,8 +5,8 @@
 
 namespace onset {
 
-// Returns false where the L-infinity distance is certainly beyond d; true else, by rounding up to about 2^-44
-// of the pair's size beyond d. x: the four points of the pair, finite, within kMaxCoordinate.
+// Returns false where the distance is certainly beyond d; true may be wrong by 2^-44 of the pair's size,
+// about. x: the pair's four points, finite, within kMaxCoordinate.
 bool within_cube(PairKind kind, const double* const (&x)[4], double d);
 
 }  // namespace onset

@@ -11,7 +11,7 @@ double largest_corner(const Differences<double>& d) {
   return std::sqrt(r);
 }
 
-// Rounds U and V to multiples of 2^-52, which moves the point by no more than u |a| + 2u |b|.
+// Rounding to multiples of 2^-52 moves the point by at most u |a| + 2u |b|.
 struct Foot {
   double U, V;
 };
@@ -31,7 +31,7 @@ void put_direction(const Vec& n, double (&direction)[3]) {
   for (int i = 0; i < 3; ++i) direction[i] = n[i] + 0.0;
 }
 
-// Computes the point convexly from the corners, within 5u rho (docs/theory.md, L42).
+// A convex mean of the corners, within 5u rho (docs/theory.md, L42).
 Vec point_at(const Differences<double>& d, const Foot& f) {
   const Vec(&c)[4] = d.corner;
   if (d.kind == PairKind::vertex_face) return ((1 - f.U - f.V) * c[0] + f.U * c[1]) + f.V * c[2];
@@ -39,15 +39,14 @@ Vec point_at(const Differences<double>& d, const Foot& f) {
   return (1 - f.U) * first + f.U * second;
 }
 
-// In units of the pair. A point's length and a margin are off by 7.5u rho each: 8u covers second order
-// (docs/theory.md, L42). `blur` is what else the differences are off by.
+// In units of the pair. A point's length and a margin err by 7.5u rho < 8u rho (docs/theory.md, L42), and by
+// what `blur` the differences have.
 struct Bounds {
   double distance, lower, upper;
 };
 constexpr double kRounding = 0x1p-50, kWidest = 0x1.8p-48;  // 8u, 48u
 
-// Finds all in doubles. Returns false where they do not tell: for a tie, a thin primitive, or a pair that may
-// touch.
+// Returns false where doubles do not tell: for ties, thin primitives, and pairs that may touch.
 bool find(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
   const Plane<double> plane(d);
   Nearest<double> nearest;
@@ -80,9 +79,8 @@ VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
   return nn.hi > 0x1p-400 ? (DoubleDouble(1.0) / sqrt(nn)) * n : VecOf<DoubleDouble>{};
 }
 
-// Finds all in double-doubles. Features and directions are then right within 2^-98 rho, which costs the far
-// ends 2^-98 rho^2 / distance of their margin: less than 4u rho for a distance of more than 2^-47 rho; below
-// that, 0 is a close enough bound (docs/theory.md, T8).
+// Finds features and directions within 2^-98 rho, which costs a margin 2^-98 rho^2 / distance: below 4u rho
+// for distances above 2^-47 rho, while for others 0 is close enough a bound (docs/theory.md, T8).
 void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
                  Bounds& bounds) {
   using V = VecOf<DoubleDouble>;
@@ -99,7 +97,7 @@ void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur,
   }
   const Foot foot = rounded(d.kind, nearest.U.hi, nearest.V.hi);
   const V w = (d.q - DoubleDouble(foot.U) * d.a) - DoubleDouble(foot.V) * d.b;
-  // A margin errs by less than 80 u^2 rho, a point by less than 60 u^2 rho (docs/theory.md, L43).
+  // Margins err by less than 80 u^2 rho, points by 60 u^2 rho (docs/theory.md, L43).
   const double error = 0x1p-98 * rho + 2 * blur;
   bounds.distance = sqrt(dot(w, w)).hi;
   bounds.upper = bounds.distance * (1 + 0x1p-50) + error;

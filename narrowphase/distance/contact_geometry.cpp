@@ -11,15 +11,14 @@
 namespace onset {
 namespace {
 
-// Of the pair's size: a wider gap gives a direction that the rounding of t and the weights cannot turn by
-// much.
+// Of the pair's size: the rounding of t and the weights cannot turn the direction of a wider gap by much.
 constexpr double kResolved = 0x1p-46;
-// Of a length: rounding in doubles leaves no more of a part that is 0.
+// Of a length: rounding leaves no more of a part that is 0.
 constexpr double kNothing = 0x1p-40;
 
 double length(const Vec& v) { return std::sqrt(dot(v, v)); }
 
-// Tells whether axes are exchanged an odd number of times, which turns a cross product round.
+// An odd exchange of axes turns a cross product round.
 bool odd(const std::array<int, 3>& axes) { return (axes[1] - axes[0] + 3) % 3 != 1; }
 
 Vec square_to(const Vec& e) {
@@ -36,13 +35,13 @@ double coordinate(const double (&weights)[4], PairKind kind) {  // U
   return kind == PairKind::vertex_face ? -weights[2] : weights[1];
 }
 
-// Returns how p1 - p2 changes over the whole step.
+// How p1 - p2 changes over the whole step.
 VecOf<DoubleDouble> motion_of(const PreciseMotion& m, const double (&weights)[4]) {
   const DoubleDouble U = coordinate(weights, m.start.kind), V = -weights[3];
   return ((m.end.q - m.start.q) - U * (m.end.a - m.start.a)) - V * (m.end.b - m.start.b);
 }
 
-// The normal of a pair whose gap does not give it, as it touches, or nearly does at a boundary.
+// Finds the normal of a pair that touches, or nearly does at a boundary.
 class Touching {
  public:
   Touching(const ExactPair& pair, const Differences<DoubleDouble>& d, const ClosestPoints& near, double size,
@@ -51,9 +50,9 @@ class Touching {
     if (plane_.resolved) across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
   }
 
-  // Returns the side of the plane that the pair came from, inside both primitives; 0: not known.
+  // The side of a x b that the pair came from, inside both primitives; 0: not known.
   int side() const {
-    const int s = side_before(pair_, t_);  // of a x b, in the form of the exact decision
+    const int s = side_before(pair_, t_);
     return pair_.kind == PairKind::vertex_face ? s : -s;
   }
   Vec inside(int side) const {
@@ -83,8 +82,8 @@ class Touching {
   // The winding decides where nothing moves.
   Vec wound() const { return odd_axes_ ? -1 * across_ : across_; }
 
-  // Within the plane; or square to the longest edge, or along it, end on end. At rest p1 - p2 decides, or the
-  // winding, or any direction square to the edge.
+  // Within the plane; or square to the longest edge, or along it, end on end. At rest p1 - p2 decides, else
+  // the winding, or any direction square to the edge.
   Vec along_way() const {
     const bool thin = !(plane_.width2.hi > 0x1p-80 * plane_.length2.hi);
     const Vec e = thin ? unit(rounded(plane_.along)) : Vec{}, n = past_ - dot(past_, e) * e;
@@ -105,7 +104,6 @@ class Touching {
   Vec across_{};  // a x b
 };
 
-// Lengths are in units of the pair.
 struct Geometry {
   ClosestPoints near;
   Vec normal;
@@ -113,9 +111,9 @@ struct Geometry {
   bool degenerate;
 };
 
-// Finds all in doubles; false where the gap is not wide or the motion along it, if there is any, no more than
-// rounding. Mixed differences are 4u of their sizes off, motions 12u. The direction is right within 2^-17 at
-// worst, where features tie, and within 2^-40 else (docs/theory.md, §16.4).
+// Returns false where the gap is not wide, or the motion along it not more than rounding. Mixed differences
+// err by 4u, motions by 12u of their sizes; the direction by 2^-17 where features tie, else 2^-40
+// (docs/theory.md, §16.4).
 bool wide_geometry(const ExactPair& pair, double t, Geometry& f) {
   const double scale = inverse_unit(
       std::max(largest_corner_component(pair.kind, pair.t0), largest_corner_component(pair.kind, pair.t1)));

@@ -1,8 +1,8 @@
 // Numbers as unevaluated sums of two doubles: about 106 bits, by error-free transformations.
 //
 // Sums are right to 3 u^2 and products to 8 u^2 (Joldes, Muller and Popescu 2017), quotients and square roots
-// to 20 u^2 (docs/theory.md, §16.2), as long as nothing over- or underflows: callers scale what they compute
-// with near 1, and what is lost below 2^-900 does not count.
+// to 20 u^2 (docs/theory.md, §16.2), where nothing over- or underflows: callers scale to near 1, and what is
+// lost below 2^-900 does not count.
 #pragma once
 
 #include <cmath>
@@ -28,8 +28,8 @@ inline DoubleDouble quick_two_sum(double a, double b) {
 }
 inline DoubleDouble two_difference(double a, double b) { return two_sum(a, -b); }
 
-// Multiplies without error, by Dekker's splitting. A compiler that fuses products into sums must not do so
-// with the rounded product, whose error is wanted; all others here are exact, fused or not.
+// Multiplies without error, by Dekker's splitting. The rounded product must not be fused into a sum, as its
+// error is wanted; all others here are exact, fused or not.
 inline DoubleDouble two_product(double a, double b) {
   const volatile double rounded = a * b;
   const double p = rounded, a1 = 0x8000001p0 * a, b1 = 0x8000001p0 * b;
@@ -64,7 +64,7 @@ inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
 }
 inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
 
-// Multiplies by a power of two.
+// By a power of two.
 inline DoubleDouble scaled(const DoubleDouble& a, double power) { return {a.hi * power, a.lo * power}; }
 
 }  // namespace onset

@@ -1,5 +1,4 @@
-// The point of a pair's differences that is nearest to the origin, and the direction that keeps it away, for
-// doubles and for double-doubles.
+// The point of a pair's differences nearest to the origin, and the direction that keeps it away.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +13,8 @@ namespace onset {
 inline Vec rounded(const VecOf<DoubleDouble>& v) { return {{v[0].hi, v[1].hi, v[2].hi}}; }
 
 // The differences first - second of a pair, q - U a - V b: (U, V) is in the triangle U, V >= 0, U + V <= 1
-// (vertex-face: a and b lead from the first corner of the face) or in the unit square (edge-edge: a runs
-// against the first edge, b along the second). Corners are at (0, 0), (0, 1), (1, 0), (1, 1) with edges.
+// (vertex-face: a and b lead from the face's first corner) or in the unit square (edge-edge: a runs against
+// the first edge, b along the second), with corners (0, 0), (0, 1), (1, 0), (1, 1).
 template <class T>
 struct Differences {
   PairKind kind;
@@ -30,7 +29,7 @@ struct Differences {
   }
 };
 
-// The least width that is resolved, of a length of 1, and the least square that still holds.
+// Of a length of 1, the least width that is resolved; and the least square that holds.
 template <class T>
 struct Precision;
 template <>
@@ -43,11 +42,11 @@ struct Precision<DoubleDouble> {
 };
 
 // The plane of a and b by Gram-Schmidt from the longer one, twice: `across` is then as exact as the other
-// edge, however thin the primitive is, and the normal does not tilt over the width.
+// edge, however thin the primitive is.
 template <class T>
 struct Plane {
-  bool swapped = false;  // b is the longer one
-  bool resolved = false;  // its width is more than `thinnest` of its length
+  bool swapped = false;        // b is the longer one
+  bool resolved = false;       // its width is more than `thinnest` of its length
   VecOf<T> along{}, across{};  // the longer edge, and the other's part across it
   T length2{}, width2{}, share{};
 
@@ -71,10 +70,9 @@ struct Plane {
 template <class T>
 struct Nearest {
   T U{}, V{};
-  bool inside =
-      // Above a resolved plane: the direction is square to it.
-      false;
-  // Its `margin` is the distance, up to rounding; its length is any.
+  // The point is above a resolved plane, and the direction is square to that.
+  bool inside = false;
+  // Its `margin` is the distance, up to rounding.
   VecOf<T> direction{};
 };
 
@@ -97,8 +95,8 @@ bool foot_on_plane(const Differences<T>& d, const Plane<T>& plane, Nearest<T>& r
   return d.kind == PairKind::vertex_face ? !(r.U + r.V > one) : !(r.U > one || r.V > one);
 }
 
-// Finds the nearest point of the boundary. Inside a side the direction is made square to it: else the
-// rounding of the way along the side would tilt it where the distance is short.
+// Finds the nearest point of the boundary. Inside a side the direction is made square to it: rounding along
+// the side would tilt it where the distance is short.
 template <class T>
 Nearest<T> nearest_on_sides(const Differences<T>& d) {
   struct Side {
@@ -135,7 +133,7 @@ Nearest<T> nearest_on_sides(const Differences<T>& d) {
   return best;
 }
 
-// Returns min over the corners of n . corner / |n|: the distance is no less, whatever n is.
+// Returns a lower bound of the distance, whatever n is.
 template <class T>
 T margin(const Differences<T>& d, const VecOf<T>& n) {
   const T nn = dot(n, n);

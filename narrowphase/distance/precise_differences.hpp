@@ -1,28 +1,25 @@
-// A pair's differences in double-doubles, in units of a power of two: from positions, and at a time of a
-// motion.
+// A pair's differences in units of a power of two, from positions and at a time of a motion.
 #pragma once
 
 #include "narrowphase/distance/nearest.hpp"
 
 namespace onset {
 
-// x: the four points of a pair.
 double largest_corner_component(PairKind kind, const double* const (&x)[4]);
 
-// Returns the power of two that brings the largest component of a corner difference into [1, 2), subnormal
-// ones into [2^-53, 2); 1 where all are 0.
+// Brings `largest` into [1, 2), subnormal ones into [2^-53, 2); 1 for 0.
 double inverse_unit(double largest);
 
-// Returns the differences times `scale`, one rounding each.
+// Times `scale`, one rounding each.
 Differences<double> rounded_differences(PairKind kind, const double* const (&x)[4], double scale);
 
-// Returns them without error, but for what 2^-1074 is too coarse for; corners err by 3u^2 of their size.
+// Times `scale`, without error but for underflow; corners err by 3u^2 of their size.
 Differences<DoubleDouble> precise_differences(PairKind kind, const double* const (&x)[4], double scale);
 
-// A pair's motion, scaled so that the largest component of a corner difference at both ends is in [1, 2).
+// A pair's motion, scaled so that the largest component of a corner at both ends is in [1, 2).
 struct PreciseMotion {
   double unit = 1;  // model length
-  // A little above the largest corner difference at both ends; where it is 0, nothing has corners.
+  // A little above the largest corner at both ends; 0: nothing has corners.
   double size = 0;
   Differences<DoubleDouble> start, end{};
 

@@ -7,8 +7,8 @@
 
 namespace onset {
 
-// The sign at a time of the cubic with Bernstein coefficients f on [0, 1], |f| < 2^bits, in integers E of N
-// limbs. f (2^e)^3 is homogeneous in x and y = 2^e - x and below 2^(bits + 3e + 3) (docs/theory.md, L37).
+// The sign at a time of a cubic with Bernstein coefficients below 2^bits on [0, 1]: as a form in x and y =
+// 2^e - x it is below 2^(bits + 3e + 3) (docs/theory.md, L37).
 template <int N, class T>
 struct CubicSign {
   const T (&f)[4];
@@ -34,8 +34,8 @@ struct CubicSign {
   }
 };
 
-// Finds the adjacent doubles around the one root of f between k / 2^depth and (k + 1) / 2^depth, depth < 50,
-// where f has opposite signs. None: it does not fit.
+// Finds the adjacent doubles around f's one root between k / 2^depth and (k + 1) / 2^depth, depth < 50, where
+// its signs differ. None: it does not fit.
 template <int N, class T>
 std::optional<DoubleBracket> bracket_of(const T (&f)[4], int bits, std::uint64_t k, int depth) {
   const double width = std::ldexp(1.0, -depth), lo = double(k) * width, hi = lo + width;

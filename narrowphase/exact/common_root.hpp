@@ -1,8 +1,7 @@
 // Is a quadratic zero at a cubic's root? In integers of fixed width (docs/theory.md, L40).
 //
-// With t = x / (x + y) both are forms in (x : y): f = sum a_i x^i y^(3 - i), g = sum b_i x^i y^(2 - i). Where
-// b_2 != 0 the remainder b_2^2 f mod g = r_1 x + r_0 y vanishes at every common root, so (-r_0 : r_1) is the
-// only candidate, unless the remainder is zero throughout.
+// As forms f = sum a_i x^i y^(3 - i), g = sum b_i x^i y^(2 - i), t = x / (x + y): the remainder b_2^2 f mod g
+// = r_1 x + r_0 y is zero at common roots, so unless it vanishes (-r_0 : r_1) is the only candidate.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +10,8 @@
 
 namespace onset {
 
-// For coordinates of q, a, b below 2^c: the remainder at k / 2^depth, depth <= 24, is below 2^(7c + 42), g at
-// the candidate below 2^(16c + 41) (L40).
+// For coordinates of q, a, b below 2^c the remainder at k / 2^depth, depth <= 24, is below 2^(7c + 42), g at
+// the candidate below 2^(16c + 41).
 template <int RemainderLimbs, int ValueLimbs>
 struct CommonRootWidths {
   static constexpr bool fit(int c) {
@@ -22,9 +21,9 @@ struct CommonRootWidths {
 using NarrowCommonRoot = CommonRootWidths<8, 17>;  // c <= 65
 using WideCommonRoot = CommonRootWidths<14, 31>;   // c <= 121
 
-// Tells whether the quadratic, not zero throughout, vanishes at the cubic's one root, a simple one, between k
-// / 2^depth and (k + 1) / 2^depth, where the cubic is not zero. Both by Bernstein coefficients on [0, 1], up
-// to a factor; changes_sign: the quadratic's signs at the two ends are opposite.
+// Tells whether the quadratic, not zero throughout, vanishes at the cubic's only and simple root in the open
+// interval [k, k + 1] / 2^depth, at whose ends the cubic is not zero. changes_sign: the quadratic's signs
+// there are opposite. Bernstein coefficients are on [0, 1], up to a factor.
 template <int RemainderLimbs, int ValueLimbs, class T>
 bool vanishes_at_root(CommonRootWidths<RemainderLimbs, ValueLimbs>, const T (&cubic)[4],
                       const T (&quadratic)[3], std::uint64_t k, int depth, bool changes_sign) {

@@ -24,7 +24,7 @@ Bits split(double x) {
   return {m, e};
 }
 
-// Takes positions in units of the last bit of any coordinate: contact does not depend on the unit.
+// In units of the last bit of any coordinate: contact does not depend on the unit.
 void set_points(const ExactPair& pair, IntegerPoints& t0, IntegerPoints& t1) {
   int last = INT_MAX;
   for (const auto* points : {&pair.t0, &pair.t1})
@@ -38,7 +38,7 @@ void set_points(const ExactPair& pair, IntegerPoints& t0, IntegerPoints& t1) {
     }
 }
 
-// Replaces the start by the positions at `from`, and scales both ends to integers.
+// Replaces the start by the positions at `from`, scaled to integers.
 void start_later(double from, IntegerPoints& t0, IntegerPoints& t1) {
   const Dyadic t = to_dyadic(from);
   const Integer one = Integer(1) << unsigned(t.exponent);
@@ -70,7 +70,6 @@ Polynomial derivative(const Polynomial& p) {
   return Polynomial(std::move(c));
 }
 
-// Round k / 2^depth.
 double rounded_down(const Integer& k, unsigned depth) {
   if (k.is_zero()) return 0;
   const int last = std::max(int(msb(k)) - int(depth) - 52, -1074);  // exponent of the last bit of the double
@@ -102,8 +101,8 @@ DoubleBracket bracket(const IsolatedRoot& root, bool adjacent) {
 }
 
 // The complete decision (docs/theory.md, §15.4). At the roots of f = q.n, n = a x b, one axis with n_k != 0
-// decides; where n = 0 the boundary segments are all there is. Where f is 0 for all t and the pair does not
-// touch at t = 0, the first contact is on the boundary (L41).
+// decides; where n = 0 the boundary is all there is, as it is where f is 0 for all t and the pair apart at 0
+// (L41).
 class CompleteDecision {
  public:
   CompleteDecision(PairKind kind, const IntegerPoints& t0, const IntegerPoints& t1)
@@ -193,15 +192,14 @@ std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair, bool 
   set_points(pair, t0, t1);
   std::optional<DoubleBracket> first;
   CompleteDecision(pair.kind, t0, t1).find([&](const IsolatedRoot& root) {
-    const DoubleBracket t =
-        // Rounding is monotonic: the ends of the earliest are the smallest ends.
-        bracket(root, adjacent);
+    // Rounding is monotonic: the ends of the earliest are the smallest ends.
+    const DoubleBracket t = bracket(root, adjacent);
     first = first ? DoubleBracket{std::min(first->lo, t.lo), std::min(first->hi, t.hi)} : t;
   });
   return first;
 }
 
-// By Taylor: the first derivative that is not 0 at t decides, the odd ones with the other sign.
+// By Taylor: the first derivative that is not 0 decides, the odd ones with the other sign.
 int side_before(const ExactPair& pair, double t) {
   IntegerPoints t0, t1;
   set_points(pair, t0, t1);

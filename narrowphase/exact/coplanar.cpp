@@ -1,19 +1,19 @@
-// If the two do not touch at t = 0, the first contact is on the boundary of {U a + V b} (docs/theory.md,
-// L41): for a segment, w x e = 0 and h = w.(e - w) >= 0. Those are quadratics, so its time is a root of one,
-// where the signs of the others are those of numbers alpha + beta sqrt(d).
+// The first contact after t = 0 is on the boundary of {U a + V b} (docs/theory.md, L41): for a segment, w x e
+// = 0 and h = w.(e - w) >= 0. It is a root of one of these quadratics, at which the others are alpha + beta
+// sqrt(d) up to a factor.
 //
-// For coordinates of q, a, b below 2^c all coefficients are below 2^m, m = 2c + 7, and a root is (u + v
-// sqrt(d)) / w with |u|, |w| < 2^(m + 1), d < 5 * 2^(2m) (§15.5).
+// For coordinates of q, a, b below 2^c coefficients are below 2^m, m = 2c + 7, and a root is (u + v sqrt(d))
+// / w with |u|, |w| < 2^(m + 1), d < 5 * 2^(2m) (§15.5).
 #include "narrowphase/exact/coplanar.hpp"
 
 namespace onset {
 namespace {
 
-// Limbs for a coefficient, and for products of two, three and six; at the right, the bits that these take.
+// Limbs for a coefficient and products of two, three and six, and the bits that these take.
 template <int N1, int N2, int N3, int N6>
 struct Coplanar {
   using Coefficient = Wide<N1>;  // m + 3: sums of three
-  using Product = Wide<N2>;  // 2m + 5: u^2 + d
+  using Product = Wide<N2>;      // 2m + 5: u^2 + d
   using Alpha = Wide<N3>;        // 3m + 6
   using Compared = Wide<N6>;     // 6m + 11
   static constexpr bool fits(int c) {
@@ -48,7 +48,7 @@ struct Coplanar {
     return r;
   }
 
-  // Returns g's sign in (0, 1] by its Bernstein coefficients; 0: not certain.
+  // g's sign in (0, 1]; 0: not certain.
   static int definite_sign(const Quadratic& g) {
     const Coefficient twice = g.a + g.a;
     const int first = sign_of(g.a), middle = sign_of(twice + g.b), last = sign_of(g.a + g.b + g.c);
@@ -82,8 +82,7 @@ struct Coplanar {
     return 2;
   }
 
-  // Returns the sign of alpha + beta sqrt(d). With |alpha| < 12 * 2^(3m), |beta| < 4 * 2^(2m), alpha^2 and
-  // beta^2 d are below 2^(6m + 10).
+  // As |alpha| < 12 * 2^(3m) and |beta| < 4 * 2^(2m), alpha^2 and beta^2 d are below 2^(6m + 10).
   static int sign_of_sum(const Alpha& alpha, const Alpha& beta, const Product& d) {
     const int a = sign_of(alpha), b = sign_of(d) == 0 ? 0 : sign_of(beta);
     if (a == 0 || b == 0 || a == b) return a != 0 ? a : b;
@@ -95,7 +94,7 @@ struct Coplanar {
     return a * sign_of(x * x - y * y * Compared(d));
   }
 
-  // Returns the sign of w^2 g at the root.
+  // Of w^2 g at the root.
   static int sign_at(const Quadratic& g, const Root& r) {
     const Product u = r.u, w = r.w;
     const Product squares = r.v == 0 ? u * u : u * u + r.d;
@@ -129,7 +128,6 @@ struct Coplanar {
     return estimate(Product(r.u) * Product(r.u) - r.d) / (w * (u - s));
   }
 
-  // One segment of the boundary.
   struct Segment {
     Quadratic off_line[3], extent;  // w x e and h
 
@@ -143,7 +141,7 @@ struct Coplanar {
       extent = w[0] * rest[0] + w[1] * rest[1] + w[2] * rest[2];
     }
 
-    // Finds the first time in (0, 1] at which the point is on the segment, where it is not at t = 0.
+    // The first time in (0, 1] at which the point is on the segment; it is not at t = 0.
     CoplanarContact first(bool adjacent) const {
       if (definite_sign(extent) < 0) return {};
       const Quadratic* moving = nullptr;

@@ -30,10 +30,10 @@ IntegerPoints<C> points_on_grid(const double* const (&points)[4], int last) {
   return r;
 }
 
-// Of the cubic, where coordinates of q, a, b are below 2^(bits + 1) (docs/theory.md, L37).
+// For coordinates of q, a, b below 2^(bits + 1) (docs/theory.md, L37).
 int cubic_bits_for(int bits) { return 3 * (bits + 1) + 5; }
 
-// Returns how deep a search may go where the cubic has `width` bits; < 0: it does not fit.
+// Below 0: it does not fit.
 int depth_for(int bits, int width) {
   const int room = width - 2 - cubic_bits_for(bits);
   return room < 0 ? -1 : std::min(room / 3, kDeepest);
@@ -41,7 +41,7 @@ int depth_for(int bits, int width) {
 
 struct Decided {
   Answer answer;
-  bool final;  // wider integers would not know more
+  bool final;                         // wider integers would not know more
   std::optional<DoubleBracket> time;  // none: not known as precisely as was asked for
 };
 
@@ -64,7 +64,7 @@ Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerP
   return {found.answer, true, bracket_of<Limbs>(s.cubic(), cubic_bits, found.k, found.depth)};
 }
 
-// Coordinates of up to 61 bits, in machine words; first with a cubic of 128 bits where that is enough.
+// Coordinates of up to 61 bits; first with a cubic of 128 bits where that is enough.
 Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
   const auto t0 = points_on_grid<std::int64_t>(pair.t0, grid.last),
              t1 = points_on_grid<std::int64_t>(pair.t1, grid.last);
@@ -77,7 +77,7 @@ Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
                                                   want_time);
 }
 
-// Coordinates of up to 120 bits, in two limbs.
+// Coordinates of up to 120 bits.
 Decided search_two_limbs(const ExactPair& pair, const Grid& grid, bool want_time) {
   const auto t0 = points_on_grid<Wide<2>>(pair.t0, grid.last),
              t1 = points_on_grid<Wide<2>>(pair.t1, grid.last);

@@ -1,5 +1,5 @@
-// Do two primitives that move linearly touch, and when? The exact answer for the stored doubles: closed
-// primitives, separation 0, every degenerate case (docs/theory.md, §15).
+// Whether and when two closed primitives that move linearly touch: exact for the stored doubles at separation
+// 0, in every degenerate case (docs/theory.md, §15).
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ namespace onset {
 // Tells whether they touch at a time in [from, 1], from in [0, 1].
 bool exactly_touches(const ExactPair& pair, double from = 0);
 
-// Finds the first time in [0, 1] at which they touch, between adjacent doubles or as a double.
+// Finds the first time in [0, 1] at which they touch, between adjacent doubles.
 std::optional<DoubleBracket> exact_first_contact(const ExactPair& pair);
 
-// Tells whether they touch in [0, 1], and an interval that holds the first time, as wide as it comes. quick:
-// `unknown` rather than more than a few microseconds.
+// Tells whether they touch in [0, 1], and an interval that holds the first time. quick: `unknown` rather than
+// more than a few microseconds.
 enum class Effort { quick, complete };
 struct ExactAnswer {
   Answer answer;

@@ -31,7 +31,6 @@ IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial&
 
 namespace {
 
-// Divides by the common factor of the coefficients.
 IntegerPolynomial primitive(const IntegerPolynomial& p) {
   Integer common = 0;
   for (int i = 0; i <= p.degree(); ++i) common = gcd(common, p[i]);
@@ -60,7 +59,7 @@ Division pseudo_divide(const IntegerPolynomial& p, const IntegerPolynomial& d) {
 
 using Coefficients = std::vector<Integer>;
 
-// Returns the Bernstein coefficients on [k, k + 1] / 2^depth, up to a positive factor.
+// On [k, k + 1] / 2^depth, up to a positive factor.
 Coefficients bernstein(const IntegerPolynomial& p, const Integer& k, unsigned depth) {
   const int n = p.degree();
   Coefficients c;
@@ -79,7 +78,7 @@ Coefficients bernstein(const IntegerPolynomial& p, const Integer& k, unsigned de
   return b;
 }
 
-// Computes both halves, each multiplied by 2^degree.
+// Both halves, each multiplied by 2^degree.
 void halve(const Coefficients& b, Coefficients& left, Coefficients& right) {
   const std::size_t n = b.size() - 1;
   Coefficients row = b;
@@ -102,8 +101,7 @@ int sign_changes(const Coefficients& b) {
   return changes;
 }
 
-// Finds the roots in the open interval. It ends for square-free p: small intervals have at most one sign
-// change.
+// Finds the roots in the open interval; ends for square-free p, as short pieces have at most one sign change.
 void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k, unsigned depth,
              std::vector<IsolatedRoot>& roots) {
   const int changes = sign_changes(b);
@@ -123,8 +121,7 @@ void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k
 
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial a, IntegerPolynomial b) {
   while (!b.is_zero()) {
-    // Degrees are at most 3, and coefficients grow at most eightfold in length: that is cheaper than common
-    // factors.
+    // Degrees are at most 3: growing eightfold in length is cheaper than dividing by common factors.
     IntegerPolynomial r = a.degree() < b.degree() ? a : pseudo_divide(a, b).remainder;
     a = std::move(b);
     b = std::move(r);
@@ -178,8 +175,7 @@ bool has_one_sign(const Coefficients& b) {
   return sign_changes(b) == 0 && !b.front().is_zero() && !b.back().is_zero();
 }
 
-// Halves the root's interval until g has one sign in it, at most `rounds` times (< 0: as long as it takes);
-// returns g's sign, or 0.
+// Halves the root's interval, at most `rounds` times unless < 0, until g has one sign in it; g's sign, or 0.
 int narrow_to_one_sign(const IntegerPolynomial& g, IsolatedRoot& root, int rounds) {
   Coefficients p = bernstein(root.p, root.k, root.depth), left_p, right_p;
   Coefficients b = bernstein(g, root.k, root.depth), left, right;
@@ -208,7 +204,7 @@ int sign_at(const IntegerPolynomial& g, IsolatedRoot& root) {
   if (g.degree() < 1) return g.is_zero() ? 0 : g[0].sign();
   constexpr int kCheap = 6;
   if (const int s = narrow_to_one_sign(g, root, kCheap); s != 0 || root.exact) return s;
-  // The common divisor can have no root in the interval but this one, and it is simple.
+  // The common divisor's only root in the interval can be this one, a simple one.
   const IntegerPolynomial common = greatest_common_divisor(root.p, g);
   if (common.degree() > 0 && sign_at(common, root.k, root.depth) != sign_at(common, root.k + 1, root.depth))
     return 0;

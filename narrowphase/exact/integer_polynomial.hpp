@@ -1,5 +1,4 @@
 // Polynomials with integer coefficients of any size, and exact signs at their roots (docs/theory.md, §15.4).
-// For complete.cpp and edge_face.cpp only.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -33,9 +32,9 @@ class IntegerPolynomial {
 };
 
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial a, IntegerPolynomial b);
-// Returns a polynomial with the same roots, each once; p != 0.
+// With the same roots, each once; p != 0.
 IntegerPolynomial square_free(const IntegerPolynomial& p);
-// Returns the sign of p at numerator / 2^exponent.
+// Of p at numerator / 2^exponent.
 int sign_at(const IntegerPolynomial& p, const Integer& numerator, unsigned exponent);
 
 // A root of the square-free p: at k / 2^depth (exact), or the only one inside [k, k + 1] / 2^depth.
@@ -45,11 +44,11 @@ struct IsolatedRoot {
   unsigned depth = 0;
   bool exact = false;
 };
-// Returns where in its interval, from 0 to 1, the root lies, roughly; degree <= 3.
+// Where in its interval the root lies, from 0 to 1, roughly; degree <= 3.
 double position_in_interval(const IsolatedRoot& root);
 // Finds the roots of f != 0 in [0, 1], in increasing order.
 std::vector<IsolatedRoot> isolated_roots(const IntegerPolynomial& f);
-// Returns the sign of g at the root, whose interval it may narrow. It always ends: common divisors tell zero.
+// Of g at the root, whose interval may narrow. It always ends: common divisors tell zero.
 int sign_at(const IntegerPolynomial& g, IsolatedRoot& root);
 
 }  // namespace onset

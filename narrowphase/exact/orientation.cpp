@@ -7,8 +7,7 @@
 namespace onset {
 namespace {
 
-// A number as a sum of doubles that do not overlap, smallest first (Shewchuk 1997); orientation() scales so
-// that nothing under- or overflows.
+// A number as a sum of doubles that do not overlap, smallest first (Shewchuk 1997).
 using Expansion = std::vector<double>;
 
 void two_sum(double a, double b, double& sum, double& error) {

@@ -3,8 +3,7 @@
 
 namespace onset {
 
-// Returns the exact sign of det[a - d, b - d, c - d]; kUnknownSide where the coordinates span so many binary
-// orders that products would underflow.
+// Returns the exact sign of det[a - d, b - d, c - d]; kUnknownSide where products could underflow.
 inline constexpr int kUnknownSide = 2;
 int orientation(const double* a, const double* b, const double* c, const double* d);
 

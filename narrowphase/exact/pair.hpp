@@ -17,7 +17,6 @@ struct ExactPair {
   const double* t1[4];
 };
 
-// Takes vertices[0..3] of a motion.
 template <class Vertices>
 ExactPair exact_pair(PairKind kind, const Motion& motion, const Vertices& vertices) {
   ExactPair r{kind, {}, {}};
@@ -28,7 +27,6 @@ ExactPair exact_pair(PairKind kind, const Motion& motion, const Vertices& vertic
   return r;
 }
 
-// Tells whether neither primitive moves.
 inline bool rests(const ExactPair& pair) {
   for (int i = 0; i < 4; ++i)
     if (!std::equal(pair.t0[i], pair.t0[i] + 3, pair.t1[i])) return false;
@@ -37,8 +35,7 @@ inline bool rests(const ExactPair& pair) {
 
 enum class Answer { no, yes, unknown };
 
-// Vectors at one time. The pair touches iff q = U a + V b with (U, V) in the triangle U, V >= 0, U + V <= 1
-// (vertex-face) or in the unit square (edge-edge).
+// The pair touches iff q = U a + V b with U, V >= 0, U + V <= 1 (vertex-face) or U, V in [0, 1] (edge-edge).
 template <class C>
 struct RelativeVectors {
   std::array<C, 3> q, a, b;
@@ -56,8 +53,8 @@ RelativeVectors<C> relative_vectors(PairKind kind, const std::array<std::array<C
   return {difference(x[2], x[0]), difference(x[1], x[0]), difference(x[2], x[3])};
 }
 
-// A segment of the boundary of {U a + V b}. q is on it iff w x e = 0 and w.(e - w) >= 0, e = 0 included
-// (docs/theory.md, L39). Where a and b are parallel the boundary is all there is.
+// A segment of the boundary of {U a + V b}, which q is on iff w x e = 0 and w.(e - w) >= 0 (docs/theory.md,
+// L39). Where a and b are parallel the boundary is all there is.
 template <class C>
 struct PointAndSegment {
   std::array<C, 3> w, e;

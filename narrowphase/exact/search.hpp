@@ -1,10 +1,10 @@
-// The search for a pair's first contact in integers of fixed width: decides all that is generic, and says so
-// where it does not (docs/theory.md, §15.3).
+// The search for a pair's first contact in integers of fixed width, which decides all that is generic
+// (docs/theory.md, §15.3).
 //
-// f(t) = q.(a x b), a cubic, is zero at every contact. With N = n_k != 0 on an axis, n = a x b, a root is a
-// contact iff U = (q x b)_k, V = (a x q)_k and N - U - V (vertex-face) or N - U, N - V (edge-edge) have N's
-// sign or are zero (L38). All are halved in time as Bernstein polynomials, whose coefficients stay integers
-// when each half is multiplied by 8 (cubic) or 4 (quadratic), until the coefficients' signs decide.
+// f(t) = q.(a x b) is zero at every contact. Where N = (a x b)_k != 0, a root is a contact iff U = (q x b)_k,
+// V = (a x q)_k and N - U - V (vertex-face) or N - U, N - V (edge-edge) have N's sign or are zero (L38).
+// Bernstein coefficients of all are halved in time, multiplied by 8 (cubic) or 4 (quadratic) so that they
+// stay integers, until their signs decide.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace onset {
 
-// Where the first contact is: at k / 2^depth, or at f's only root in the open interval from there to (k + 1)
-// / 2^depth, at whose ends f has opposite signs.
+// The first contact is at k / 2^depth (exact), or at f's only root in the open interval [k, k + 1] / 2^depth,
+// at whose ends f has opposite signs.
 struct ContactInterval {
   Answer answer = Answer::unknown;
   std::uint64_t k = 0;
   int depth = 0;
   bool exact = false;
-  // Unknown although f's root is known to the last bit: wider integers will not help.
+  // Unknown although f's root is known to the last bit: wider integers do not help.
   bool zoomed = false;
   // Unknown since f = 0 for all t, and no contact at t = 0.
   bool coplanar = false;
 };
 
-// N limbs hold f at a double, C the coordinates of q, a, b, below 2^c, M products of two, 2^(2c + 2), and T
-// holds f, 2^(3c + 5 + 3 depth) (L37).
+// N limbs hold f at a double, C the coordinates of q, a, b, below 2^c, M products of two, 2^(2c + 2), T f,
+// 2^(3c + 5 + 3 depth).
 template <int N, class C, class M, class T>
 class ExactSearch {
  public:
@@ -53,7 +53,7 @@ class ExactSearch {
   const T (&cubic() const)[4] { return f_; }  // Bernstein coefficients, up to a factor > 0
 
  private:
-  static constexpr int kZoom = 10;  // from this depth a single root is found to the last bit
+  static constexpr int kZoom = 10;       // from this depth a single root is found to the last bit
   static constexpr int kQuadratics = 5;  // N, then what must have its sign
   struct Slot {
     T f[4];
@@ -72,7 +72,7 @@ class ExactSearch {
     return T(u[0]) * T(v[0]) + T(u[1]) * T(v[1]) + T(u[2]) * T(v[2]);
   }
 
-  // Sets f_ to three times the Bernstein coefficients of f.
+  // f_ gets three times the Bernstein coefficients of f.
   Normal set_cubic() {
     const Normal n{exact_cross<M>(r0_.a, r0_.b),
                    sum(exact_cross<M>(r0_.a, r1_.b), exact_cross<M>(r1_.a, r0_.b)),
@@ -85,7 +85,7 @@ class ExactSearch {
     return n;
   }
 
-  // Sets g to twice the Bernstein coefficients of component k of u x v.
+  // Twice the Bernstein coefficients of component k of u x v.
   static void set_quadratic(int k, const std::array<C, 3> (&u)[2], const std::array<C, 3> (&v)[2],
                             T (&g)[3]) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -96,7 +96,6 @@ class ExactSearch {
     g[2] = last + last;
   }
 
-  // Returns the axis on which n is largest half-way.
   static int widest_axis(const Normal& n) {
     int k = 0;
     double largest = -1;
@@ -125,12 +124,11 @@ class ExactSearch {
     if (kind_ == PairKind::vertex_face) s.open[4] = false;
   }
 
-  // Tells whether there is certainly no root in the open interval.
   template <int D>
   static bool has_no_root(const T (&c)[D]) {
     return definite_sign(c) != 0;
   }
-  // Returns the sign in the open interval; 0: not certain, or zero throughout.
+  // The sign in the open interval; 0: not certain, or zero throughout.
   template <int D>
   static int definite_sign(const T (&c)[D]) {
     bool positive = false, negative = false;
@@ -145,7 +143,7 @@ class ExactSearch {
     return sign_of(c[0]) == 0 && sign_of(c[1]) == 0 && sign_of(c[2]) == 0;
   }
 
-  // Tells, by Descartes, whether f has exactly one root in the open interval, and is not zero at its ends.
+  // Tells, by Descartes, whether f has exactly one root in the open interval and is not zero at its ends.
   static bool has_one_root(const T (&f)[4]) {
     if (sign_of(f[0]) * sign_of(f[3]) >= 0) return false;
     int changes = 0, last = sign_of(f[0]);
@@ -154,7 +152,8 @@ class ExactSearch {
     return changes == 1;
   }
 
-  // Closes what has N's sign throughout; true where something has the other: no contact in the open interval.
+  // Closes what has N's sign throughout. True: something has the other, so there is no contact in the open
+  // interval.
   bool outside(Slot& s) const {
     if (s.sign == 0) s.sign = definite_sign(s.g[0]);
     if (s.sign == 0) return false;
@@ -204,7 +203,7 @@ class ExactSearch {
     }
   }
 
-  // Visits the first time and the open interval of [k, k + 1] / 2^depth.
+  // Decides the first time and the open interval of [k, k + 1] / 2^depth.
   Answer visit(Slot& s, std::uint64_t k, int depth) {
     if (depth > 0 && sign_of(s.f[0]) == 0) {
       const Answer start = touches_at_start(s);
@@ -229,7 +228,7 @@ class ExactSearch {
     return left != Answer::no ? left : visit(r, 2 * k + 1, depth + 1);
   }
 
-  // Closes what is zero at f's one root in the slot, which counts as inside.
+  // Closes what is zero at f's one root, which counts as inside.
   void close_zeros(Slot& s, std::uint64_t k, int depth) const {
     for (int i = 1; i < kQuadratics; ++i)
       if (s.open[i] && vanishes(whole_.g[i], k, depth, sign_of(s.g[i][0]) * sign_of(s.g[i][2]) < 0))
@@ -241,13 +240,13 @@ class ExactSearch {
     return Widths::fit((cubic_bits_ - 5) / 3) && vanishes_at_root(Widths(), f_, g, k, depth, changes_sign);
   }
 
-  // Returns twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
+  // Twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
   static Wide<N> polarised(const T (&g)[3], const Wide<N>& x, const Wide<N>& x1, const Wide<N>& one) {
     const Wide<N> y = one - x, y1 = one - x1;
     return Wide<N>(g[0]) * (y * y1) + Wide<N>(g[1]) * (x * y1 + x1 * y) + Wide<N>(g[2]) * (x * x1);
   }
 
-  // Looks at the rest between the adjacent doubles around f's one root in the slot, where N has a sign.
+  // Decides the rest between the adjacent doubles around f's one root, where N has a sign.
   Answer zoom(const Slot& s, std::uint64_t k, int depth) {
     if (inside(s)) {
       found_ = {Answer::yes, k, depth};
@@ -258,7 +257,7 @@ class ExactSearch {
     if (!t) return Answer::unknown;
     const Dyadic lo = to_dyadic(t->lo), hi = to_dyadic(t->hi);
     const int e = std::max(lo.exponent, hi.exponent);
-    // A quadratic is below 2^(2c + 5); this makes it less than 2^(2c + 2e + 8).
+    // Polarised quadratics are below 2^(2c + 2e + 8).
     if (cubic_bits_ + 2 * e + 4 > 64 * N) return Answer::unknown;
     const Wide<N> one = shifted(Wide<N>(1), e), x = shifted(Wide<N>(lo.numerator), e - lo.exponent),
                   x1 = shifted(Wide<N>(hi.numerator), e - hi.exponent);

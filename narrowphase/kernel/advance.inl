@@ -1,10 +1,10 @@
 // Kernel text: directional conservative advancement in double lanes.
 //
-// At time t the best separating direction is found, and t becomes as late as that direction, its linear
-// continuation or the pair's own normal can certify. With `apart` the certified excess of the distance over d
-// at t = 0, delta = max(min(tolerance, apart/4), 16 E7); certificates demand d + delta/2, and a contact is a
-// witness within d + delta. So toi is never late, and a pair that never loses 3/4 of its initial gap is never
-// reported unless that gap is near rounding (docs/theory.md, T1).
+// From t the pair goes on as far as the best direction there, its linear continuation or the pair's own
+// normal can certify. With `apart` the certified excess of the distance over d at t = 0, delta =
+// max(min(tolerance, apart/4), 16 E7); certificates demand d + delta/2, and a contact is a witness within d +
+// delta. So toi is never late, and a pair that never loses 3/4 of a gap above rounding is never reported
+// (docs/theory.md, T1).
 
 // Looks at time t: finds the best direction and an upper bound of the distance.
 template <class V, int K>
@@ -25,7 +25,7 @@ inline void closest_direction(const State<V, K>& s, V t, bool maximum_norm, V (&
   dist = shortest * V::all(1 + 0x1p-50) + V::all(16 * kU) * s.rho;
 }
 
-// Returns until when the direction w at t, held fixed, certifies; and its products with the corners.
+// Certifies with the direction w at t, held fixed; g0 and g1 are its products with the corners.
 template <class V, int K>
 inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm, V (&g0)[K], V (&g1)[K]) {
   for (int k = 0; k < K; ++k) g0[k] = dot(w, s.c[0][k]), g1[k] = dot(w, s.c[1][k]);
@@ -33,8 +33,8 @@ inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm,
   return fixed_certificate(g0, g1, thr, s.t);
 }
 
-// Returns the same for a direction that turns on as it did since the last time, from w at t to w_b at tb,
-// whose choice bounds |w_b|. The quadratic of the corners' least coefficients is below every w(s).c_k(s)
+// Certifies with a direction that turns on as it did since the last time, from w at t to w_b at tb, whose
+// choice bounds |w_b|. The quadratic of the corners' least coefficients is below every w(s).c_k(s)
 // (docs/theory.md, L11).
 template <class V, int K>
 inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm, const V (&g0)[K], const V (&g1)[K]) {
@@ -67,8 +67,8 @@ inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm
   return certified<V>(turning, select(reached >= one<V>(), V::all(2), reached));
 }
 
-// Returns the same for the pair's own normal, one cubic for all corners. A hair before its root its
-// coefficients are usually all positive, which takes a contact to its time in one step (docs/theory.md, L15).
+// Certifies with the pair's own normal, one cubic for all corners. A hair before its root its coefficients
+// are usually positive, which takes a contact to its time in one step (docs/theory.md, L15).
 template <class V, int K>
 inline V certify_normal(const State<V, K>& s) {
   const V margin = (s.f_error + separation_wanted(s) * s.n_largest) * V::all(1 + 0x1p-48);
@@ -87,7 +87,7 @@ inline V certify_normal(const State<V, K>& s) {
   return certified<V>(progress, select(whole, V::all(2), reached));
 }
 
-// Makes one check: decides lanes in contact, moves the others on, and returns which made no progress.
+// Makes one check: decides lanes in contact and moves the others on.
 template <class V, int K>
 struct Check {
   typename V::Mask contact, stuck;
@@ -125,7 +125,7 @@ inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResul
   r.touched_by = 2;
 }
 
-// Gives the verdict of each lane after a check, or -1 to go on.
+// A verdict of -1 means that the lane goes on.
 template <int K>
 inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const KernelPairs& pairs, int (&verdict)[4]) {
   const int contact = bits(check.contact), stuck = bits(check.stuck);
@@ -142,8 +142,7 @@ inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const Kernel
 }
 
 // Returns what each lane keeps beyond d of its gap, which is between `apart` and dist - d (paper, section
-// 7.2: d = p d_i). Lanes without room for that, or whose two bounds differ by more than 2^-10, become
-// `unsure` and are decided with more care.
+// 7.2: d = p d_i). Lanes without room for it, or whose bounds differ by more than 2^-10, become `unsure`.
 template <int K>
 inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4, K>& s, D4 dist, D4 apart,
                   D4::Mask& unsure) {
@@ -162,7 +161,7 @@ inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4
   return select(apart > zero<V>(), min(most, wanted), zero<V>());
 }
 
-// Makes the first check, at t = 0, of four pairs: fixes delta and finds the pairs that start within d.
+// Makes the first check, at t = 0: fixes delta and finds the pairs that start within d.
 template <int K>
 inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4, K>& s, int (&verdict)[4]) {
   using V = D4;
@@ -193,14 +192,13 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   const int initial = bits(unsure) | ~bits(apart > zero<V>());
   const int moved = bits(s.t > zero<V>());
   for (int l = 0; l < 4; ++l) {
-    // Near contact at 0, yet certified until later: such a pair is looked at there, if a check is left.
+    // Near contact at 0, yet certified until later: looked at there, if a check is left.
     if (verdict[l] == int(Verdict::contact) && (moved >> l & 1))
       verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::max_checks);
     if (initial >> l & 1) verdict[l] = int(Verdict::initial);
   }
 }
 
-// Puts four pairs back to where they stopped.
 template <int K>
 inline void restore(const KernelResume* resume, const int (&positions)[4], State<D4, K>& s) {
   double t[4], separation[4], delta[4], slow[4], checks[4];
@@ -215,7 +213,6 @@ inline void restore(const KernelResume* resume, const int (&positions)[4], State
   s.checks = D4::load(checks);
 }
 
-// Makes one check of each lane and gives its verdict, or -1 to go on.
 template <int K>
 inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) {
   D4 w[3], dist;
@@ -223,7 +220,7 @@ inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) 
   judge(s, advance(s, w, dist, pairs.maximum_norm, false), pairs, verdict);
 }
 
-// Up to four pairs that were set up and checked twice, which decides most; `waiting` marks those that go on.
+// Pairs that were set up and checked twice, which decides most; `waiting` marks those that go on.
 template <int K>
 struct Pending {
   State<D4, K> state;
@@ -263,7 +260,7 @@ inline void move_lane(const State<D4, K>& from, int from_lane, State<D4, K>& to,
   for (int i = 0; i < kFields<K>; ++i) target[4 * i] = source[4 * i];
 }
 
-// Advances all pairs. Lanes are independent: a result does not depend on which pairs share the registers.
+// Lanes are independent: a result does not depend on which pairs share the registers.
 template <int K>
 inline void advance_all(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
                         KernelResult* results) {

@@ -1,21 +1,20 @@
 // Kernel text: how long a direction certifies separation.
 //
 // In units of u rho (docs/theory.md, §1.2) a product w.c_k errs by at most E4 = 4.25 for a fixed w at every
-// time (4 roundings; L4), E7 = 7.25 where corners are mixed at t (7; L5), and E8 = 8.25 max(|w_b|, 1) in a
-// Bernstein coefficient of a turning direction (8; L6). These factors of 1.0625, 1.036 and 1.031 cover second
-// order, |w| <= 1 + 5u, rho's rounding and underflow: the largest corner component is in [1, 2).
+// time (4 roundings; L4), E7 = 7.25 where corners are mixed at t (7; L5), E8 = 8.25 max(|w_b|, 1) in a
+// coefficient of a turning direction (8; L6). The factors 1.0625, 1.036 and 1.031 cover second order, |w| <=
+// 1 + 5u, rho's rounding and underflow.
 
 template <class V>
 inline V certified(typename V::Mask ok, V time) {
   return select(ok, time, V::all(-1));
 }
 
-// Returns the time until which a direction held fixed certifies [t, .]: 2 for the whole rest, -1 for nothing,
-// as for NaN. g0 = w.c_k(0), g1 = w.c_k(1), and thr = E4 + the separation demanded.
+// Returns the time until which a direction held fixed certifies [t, .]: 2 for the whole rest, -1 for nothing
+// or NaN. g0 = w.c_k(0), g1 = w.c_k(1), and thr = E4 + the separation demanded (docs/theory.md, L9).
 //
-// Where every line (1-s) g0 + s g1 is above thr the pair is apart (docs/theory.md, L9). 2^-49 = 16u covers
-// the 13u of a root that products across pick. They do not underflow: thr > 2^-52, so a non-zero x or y is
-// above 2^-106; for pairs of subnormal size these are 2^-102 and 2^-157.
+// Roots are picked by products across, and 2^-49 = 16u covers their 13u. The products do not underflow: thr >
+// 2^-52, so a non-zero x or y is above 2^-106; for pairs of subnormal size these are 2^-102 and 2^-157.
 template <class V, int K>
 inline V fixed_certificate(const V (&g0)[K], const V (&g1)[K], V thr, V t) {
   V exit = V::all(2), exit_over = one<V>(), enter = zero<V>(), enter_over = one<V>();
@@ -41,9 +40,9 @@ inline V fixed_certificate(const V (&g0)[K], const V (&g1)[K], V thr, V t) {
 // Returns an L such that the quadratic with Bernstein coefficients x0, x1, x2 is positive on the closed
 // interval [0, L]: 1 only where it is positive throughout, 0 where nothing is certain (docs/theory.md, L12).
 //
-// It is positive throughout iff x0, x2 > 0 and x1 > -sqrt(x0 x2): 2^-10 covers that comparison in float, too.
-// 16u s makes the discriminant an over-estimate where x1 < 0, so L errs downwards; 2^-48 covers the other 11
-// roundings.
+// It is positive throughout iff x0, x2 > 0 and x1 > -sqrt(x0 x2); 2^-10 covers rounding in that, in float
+// too. Where x1 < 0, 16u s makes the discriminant an over-estimate, so that L errs downwards. 2^-48 covers
+// the other 11 roundings.
 template <class V>
 inline V first_root(V x0, V x1, V x2) {
   const V tiny = V::all(0x1p-960), s = x1 * x1, q = x0 * x2;
@@ -73,8 +72,8 @@ inline void left_part(V (&f)[4], V t) {
     for (int i = 3; i >= level; --i) f[i] = lerp(f[i - 1], f[i], t);
 }
 
-// Returns the fraction of its interval on which a cubic with Bernstein coefficients x certainly is positive:
-// it is above its steepest chord (docs/theory.md, L3g). 2^-49 covers 6 roundings.
+// Returns the fraction of its interval on which a cubic is certainly positive: it is above its steepest chord
+// (docs/theory.md, L3(g)). 2^-49 covers 6 roundings.
 template <class V>
 inline V chord_step(const V (&x)[4]) {
   const V steepest = max(max(x[0] - x[1], V::all(0.5) * (x[0] - x[2])), V::all(1.0 / 3) * (x[0] - x[3]));
@@ -84,8 +83,8 @@ inline V chord_step(const V (&x)[4]) {
   return select(finite & (x[0] > zero<V>()), select(whole, one<V>(), crossing), zero<V>());
 }
 
-// Returns about the root of that cubic; any result is safe. Three steps of Halley's method do what five of
-// Newton's do, with a shorter chain of divisions.
+// Approximates the root of that cubic; any result is safe. Three Halley steps do what five of Newton's do, in
+// a shorter chain of divisions.
 constexpr int kHalleySteps = 3;
 template <class V>
 inline V root_near(const V (&x)[4], V start) {

@@ -1,14 +1,14 @@
 // Kernel text: a proof that a contact is real, in double lanes (docs/theory.md, §14).
 //
-// The pair touches iff q = U a + V b with (U, V) in the triangle (vertex-face) or square (edge-edge); q, a, b
-// are linear in t, with components of at most Mq, Ma, Mb. Where f = q.(a x b) has opposite signs at lo < hi,
-// and for some fixed n all of n.(q x b) = U N, n.(a x q) = V N and what they leave of N = n.(a x b) are
-// positive on [lo, hi], f's root there is a contact (L34).
+// The pair touches iff q = U a + V b with (U, V) in the triangle or square; q, a, b are linear in t with
+// components up to Mq, Ma, Mb. Where f = q.(a x b) has opposite signs at lo < hi, and for a fixed n all of
+// n.(q x b), n.(a x q) and what they leave of n.(a x b) are positive on [lo, hi], f's root there is a contact
+// (L34).
 //
-// F = 3 f is computed within 336u Mq Ma Mb (L35); 350 covers second order, 2^-900 underflow.
+// F = 3 f errs by 336u Mq Ma Mb (L35); 350 covers second order, 2^-900 underflow.
 constexpr double kCubicError = 350 * kU;
-// Inside functions carry 26 roundings of |n|_1 in the middle of [lo, hi], 30 with the two subtractions of N -
-// U - V; 32 covers second order. Within w <= 1/64 of it they change by at most 8.25 w (L36).
+// Inside functions carry 26 roundings of |n|_1 in the middle, 30 with the subtractions of N - U - V; 32
+// covers second order. Within w <= 1/64 they change by at most 8.25 w (L36).
 constexpr double kInsideError = 32 * kU, kInsideSlope = 8.25;
 
 template <class V>
@@ -47,7 +47,6 @@ inline V largest_of(const V (&x)[2][3]) {
   return m;
 }
 
-// Computes the Bernstein coefficients of F on [0, 1].
 template <class V>
 inline void set_contact_cubic(const RelativeMotion<V>& r, V (&f)[4]) {
   V n00[3], n01[3], n10[3], n11[3], m[3];
@@ -90,7 +89,7 @@ inline V underflow() {
   return V::all(0x1p-900);
 }
 
-// U N, V N and N for the vector n = a x b at a time, and their error bounds at all times within `width`.
+// U N, V N and N for n = a x b at a time, and their error bounds at all times within `width` of it.
 template <class V>
 struct InsideFunctions {
   V n[3], u, v, big_n, eu, ev, en;
@@ -112,8 +111,7 @@ inline void set_inside(const RelativeMotion<V>& r, V time, V width, V mq, V ma, 
   out.en = each * (ma * mb) + underflow<V>();
 }
 
-// Returns the time by which four pairs have certainly touched, 2 where that is not certain. They are apart
-// before t.
+// Returns the time by which four pairs, apart before t, have certainly touched; 2: not certain.
 template <int K>
 inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
   using V = D4;

@@ -1,10 +1,9 @@
-// Kernel text: contact points and normals of ordinary contacts, in double lanes: closest points are certainly
-// inside both primitives, and the cross product, the gap and the motion along it are more than rounding.
-// Others are left to scalar code (distance/contact_geometry.hpp).
+// Kernel text: geometry of ordinary contacts, in double lanes: closest points are certainly inside, and the
+// cross product, the gap and the motion along it are more than rounding. Others are left to scalar code
+// (distance/contact_geometry.hpp).
 //
-// p1 - p2 is q - U a - V b (vertex-face), or minus that. It errs by less than 12u (|q| + 2 longest); four
-// times that tells sides apart. A width of 2^30 times the edges' noise leaves a normal good to 2^-30
-// (docs/theory.md, §16.4).
+// p1 - p2 = +-(q - U a - V b) errs by less than 12u (|q| + 2 longest); four times that tells sides apart. A
+// width of 2^30 times the edges' noise leaves a normal good to 2^-30 (docs/theory.md, §16.4).
 
 template <class V>
 inline V squared_size(const V (&x)[2][3]) {
@@ -49,7 +48,7 @@ inline void geometry_at(const RelativeMotion<V>& r, V t, Geometry<V>& f) {
   }
   f.u = (one<V>() + select(swapped, y, x)) - one<V>();
   f.v = (one<V>() + select(swapped, x, y)) - one<V>();
-  // The foot is at least half a coordinate times the width away from the side where that coordinate is 0.
+  // The foot is at least half a coordinate times the width away from that coordinate's side.
   const V to_side = K == 3 ? min((one<V>() - f.u) - f.v, min(f.u, f.v))
                            : min(min(f.u, f.v), min(one<V>() - f.u, one<V>() - f.v));
   const V certain = V::all(4) * noise;

@@ -1,8 +1,7 @@
-// Kernel text: the culls, in single precision, eight pairs at a time (docs/theory.md, §12).
+// Kernel text: the culls, in single precision, eight pairs at a time; u = 2^-24 here (docs/theory.md, §12).
 //
-// Here u = 2^-24. Corner differences are formed in double, scaled alike for the scene and rounded to float
-// once. A Bernstein coefficient errs by 6u |w| rho; 7u covers second order and |w| <= 1 + 5u, 2^-140
-// underflow (L23).
+// Corner differences are formed in double, scaled alike for the scene and rounded to float once. A Bernstein
+// coefficient errs by 6u |w| rho; 7u covers second order, 2^-140 underflow (L23).
 
 template <int K>
 struct FloatPairs {
@@ -11,16 +10,16 @@ struct FloatPairs {
   F8 error;       // bound of a coefficient's error
 };
 
-// Moves the far end to t_max, as only [0, t_max] matters. A pair certified beyond d + reach until then is not
-// reported earlier unless it spends its checks, so the limiting pair stays the same. (In double the lerp's 3u
-// is far below float's rounding; rounded_corners counts its own.)
+// Moves the far end to t_max. A pair beyond d + reach until then is not reported earlier unless it spends its
+// checks, so the limiting pair stays the same. In double the lerp's 3u is far below float's rounding;
+// rounded_corners counts its own.
 template <class V, int K>
 inline void cut_short(V (&c)[2][K][3], V t_max) {
   for (int k = 0; k < K; ++k)
     for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], t_max);
 }
 
-// The pairs in the lanes: those in a row, whose addresses need less arithmetic, or a list.
+// The rows in the lanes: consecutive ones, whose addresses need less arithmetic, or a list.
 struct InOrder {
   int first;
   int operator[](int lane) const { return first + lane; }
@@ -40,7 +39,6 @@ inline F8 float_separation(const KernelPairs& pairs, Rows rows) {
   return to_float(D4::load(of_pair), D4::load(of_pair + 4)) * F8::all(1 + 0x1p-22f);
 }
 
-// Returns |R|, R the largest components of corners.
 template <int K>
 inline F8 rho_of(const F8 (&c)[2][K][3]) {
   F8 R[3] = {zero<F8>(), zero<F8>(), zero<F8>()};
@@ -68,10 +66,10 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
   out.error = V::all(7 * 0x1p-24f) * rho_of(out.c) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
 
-// Makes the same from rounded positions: a difference errs by what these do and rounds once. A far corner (1
-// - t) a + t b errs by 10u rho: t's rounding takes 2u, 1 - t and its product 2u, t b 2u, the sum u, and the
-// roundings of a and b u and 2u. With 4u of product and mean that is 14u; 16u covers second order and a t_max
-// below 2^-126 (docs/theory.md, L25).
+// The same from rounded positions: a difference errs by what these do and rounds once. A corner (1 - t) a + t
+// b that is cut short errs by 10u rho: t's rounding 2u, 1 - t and product 2u, t b 2u, the sum u, and a and b
+// themselves u and 2u. With 4u of product and mean that is 14u; 16u covers second order, and t_max below
+// 2^-126 (docs/theory.md, L25).
 template <int K, class Rows>
 inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& out) {
   using V = F8;
@@ -94,7 +92,7 @@ inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& 
 }
 
 // Tells whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: for
-// each corner x0, x2 > 0 and x1 > -sqrt(x0 x2), less error and separation (docs/theory.md, L12, L24).
+// each corner x0, x2 > 0 and x1 > -sqrt(x0 x2) (docs/theory.md, L12, L24).
 template <class V, int K>
 inline typename V::Mask separates(const V (&c0)[K][3], const V (&c1)[K][3], const V (&w0)[3], const V (&w1)[3], V m0, V m2) {
   const V half = V::all(0.5f), m1 = half * (m0 + m2) * V::all(1 + 0x1p-20f);
@@ -110,8 +108,8 @@ inline typename V::Mask separates(const V (&c0)[K][3], const V (&c1)[K][3], cons
   return apart;
 }
 
-// Finds a direction near the closest one. Any is safe, so plain clamped closest points do: of the
-// parallelogram c0 + u e1 + v e2 ...
+// Any direction near the closest one is safe, so plain clamped closest points do: of the parallelogram c0 + u
+// e1 + v e2 ...
 template <class V>
 inline V clamp01(V x) {
   return min(max(x, zero<V>()), one<V>());
@@ -167,10 +165,9 @@ inline V initial_gap(const V (&c)[K][3], V error) {  // the point errs by < 10u 
   return (sqrt(nearest_on_boundary(c).f2) + V::all(2) * error) * V::all(1 + 0x1p-19f);
 }
 
-// Tells whether the pair's boxes, moving linearly, are apart at every time on one axis or another: that drops
-// long steps past one another. On axis a the pair is within m = d + error only where (1-t) s0 + t s1 >= 0,
-// with s = max_k c_k + m and with s = m - min_k c_k. Roots are known within 4u; 2^-20 = 16u is taken off
-// (docs/theory.md, L26).
+// Tells whether the pair's boxes, moving linearly, are apart at every time on one axis or another. On axis a
+// the pair is within m = d + error only where (1-t) s0 + t s1 >= 0, with s = max_k c_k + m and with s = m -
+// min_k c_k. Roots are known within 4u; 2^-20 = 16u is taken off (docs/theory.md, L26).
 template <int K>
 inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
   using V = F8;
@@ -192,8 +189,7 @@ inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F
   return begin * V::all(1 - 0x1p-20f) > end * V::all(1 + 0x1p-20f);
 }
 
-// Returns the mask of pairs that are apart throughout. Refined: in two halves, each with its own turning
-// direction.
+// Returns the mask of pairs that are apart; `refined` tries two halves, each with its own turning direction.
 template <int K, class Rows>
 inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
   using V = F8;
@@ -219,7 +215,6 @@ inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
               moving_boxes_apart(s.c[0], s.c[1], d + s.error));
 }
 
-// Writes the first `valid` of eight rows but those that are apart; returns their number.
 template <class Rows>
 inline int write_survivors(int apart, Rows rows, int valid, int* out) {
   int survivors = 0;
@@ -230,7 +225,7 @@ inline int write_survivors(int apart, Rows rows, int valid, int* out) {
   return survivors;
 }
 
-// Culls fewer than eight pairs: the last row is repeated.
+// The last row is repeated.
 template <int K, class Rows>
 inline int cull_few(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
   int here[8];
@@ -238,7 +233,7 @@ inline int cull_few(const KernelPairs& pairs, Rows rows, int count, bool refined
   return write_survivors(cull_eight<K>(pairs, Listed{here}, refined), Listed{here}, count, out);
 }
 
-// Culls `count` rows. `out` may be the list of rows itself: it is written behind what is read.
+// `out` may be the list of rows itself: it is written behind what is read.
 template <int K, class Rows>
 inline int cull_rows(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
   int survivors = 0, first = 0;

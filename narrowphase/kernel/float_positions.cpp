@@ -13,7 +13,7 @@ namespace {
 constexpr int kSamples = 63;
 constexpr double kLargest = 0x1p60;  // squares of what is stored, and of differences, stay finite
 
-// Returns the median of a sample, so that a vertex that has flown off costs the others nothing.
+// The median of a sample: a vertex that has flown off costs the others nothing.
 std::array<double, 3> middle_of(const Motion& motion) {
   std::array<double, 3> middle{};
   const int step = std::max(1, motion.num_vertices / kSamples);

@@ -5,38 +5,38 @@
 
 namespace onset {
 
-// Pairs of one kind, with vertices v, f0, f1, f2 or a0, a1, b0, b1. "Scaled" lengths are in units of the
-// pair, all others in model length.
+// Pairs of one kind, with vertices v, f0, f1, f2 or a0, a1, b0, b1. Lengths are model lengths, or scaled: in
+// units of the pair.
 struct KernelPairs {
   // Rows of kMotionStride doubles a vertex.
   const double* x;
-  // Rows of kFloatStride floats a vertex, positions times `scale`; null where there are none.
+  // Rows of kFloatStride floats a vertex, positions times `scale`; or null.
   const float* rounded;
   const int (*vertices)[4];
   // The separation d of each pair.
   const double* separation;
   int count;
-  // A power of two that brings the scene's largest corner difference near 1.
+  // A power of two that brings the scene's largest corner near 1.
   double scale;
   double tolerance;  // model length
-  // Scaled: the tolerance is at most this.
+  // Scaled; the tolerance is at most this.
   double sharpest;
   // A pair reported before its checks are spent is within what it must keep + `reach`.
   double reach;
-  // Beyond d a pair must keep this share, in [0, 1), of its initial gap and, where storing > 0,
-  // kStoredRoundings times (storing * its largest coordinate + kStoredLeast); but never more than half of
-  // what the share leaves. A pair without room for that, or whose gap is not known well, is then `initial`.
+  // Beyond d a pair keeps this share, in [0, 1), of its initial gap and, where storing > 0, kStoredRoundings
+  // times (storing * its largest coordinate + kStoredLeast), but never more than half of what the share
+  // leaves. Without room for it, or with a gap not known well, it is `initial`.
   double gap_share, storing;
   // kStoredRoundings times that bound for all pairs, for the culls; 0 where storing is 0.
   double cull_beyond;
-  // The culls may drop pairs that are apart until cull_t_max, advancement those apart until after t_max.
+  // The culls may drop pairs that are apart until cull_t_max, advancement those apart beyond t_max.
   double cull_t_max;
   double t_max;
   bool maximum_norm;
   long long max_checks;
 };
 
-// So many roundings of stored positions are kept where the gap has room: the next step finds three left.
+// So many roundings of stored positions are kept where there is room: three are left to the next step.
 constexpr double kStoredRoundings = 4;
 constexpr double kStoredLeast = 0x1p-1070;
 
@@ -57,7 +57,7 @@ enum class Verdict : int {
 struct KernelResult {
   // The pair is certified apart on [0, t].
   double t;
-  // An upper bound of the distance at t, the tolerance used, and d with what gap_share and storing add.
+  // A bound of the distance at t, the tolerance used, and d with what gap_share and storing add.
   double distance;
   double delta;
   double separation;
@@ -76,7 +76,7 @@ struct KernelResume {
   double patience;
 };
 
-// Where a pair touches, in the motion's order of axes; only `ordinary` ones (contact_geometry.inl) have
+// Where a pair touches, in the motion's order of axes. Only `ordinary` ones (contact_geometry.inl) have
 // values.
 struct KernelContact {
   double weight[4], normal[3];
@@ -86,15 +86,14 @@ struct KernelContact {
 
 // The kernels of one kind of pair.
 struct KernelsOfKind {
-  // Writes the indices of the pairs that the culls cannot certify as apart on the whole step; returns their
-  // number.
+  // Writes the indices of the pairs that single precision cannot certify as free; returns their number.
   int (*cull)(const KernelPairs&, int* survivors);
   // Advances the pairs subset[0..count) from t = 0, or from resume[0..count); results are in the order of
   // subset.
   void (*advance)(const KernelPairs&, const int* subset, int count, const KernelResume* resume, KernelResult*);
-  // Sets touched_by of those results of `advance` that are in contact and have no separation.
+  // Sets touched_by of results of `advance` that are contacts without separation.
   void (*certify)(const KernelPairs&, const int* subset, int count, KernelResult* results);
-  // Finds contact points, normals, gaps and speeds of all pairs at the times t; separations are not read.
+  // Finds contact points, normals, gaps and speeds at the times t; separations are not read.
   void (*contact_geometry)(const KernelPairs&, const double* t, KernelContact*);
   // Finds the direction that separates pair `row` best at t; returns a scaled upper bound of the distance.
   double (*closest_direction)(const KernelPairs&, int row, double t, double (&w)[3]);
@@ -102,7 +101,6 @@ struct KernelsOfKind {
 
 struct KernelTable {
   const char* name;
-  // Indexed by PairKind.
   KernelsOfKind of_kind[2];
 };
 

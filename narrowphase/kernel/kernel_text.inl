@@ -24,7 +24,7 @@ namespace {
 
 #include "narrowphase/kernel/contact_geometry.inl"
 
-// K is the number of corners: 3 of a vertex-face pair, 4 of two edges.
+// K corners: 3 of a vertex-face pair, 4 of two edges.
 template <int K>
 constexpr KernelsOfKind kKernels{cull_all<K>, advance_all<K>, certify_all<K>, contact_geometry_all<K>, closest_direction_of<K>};
 

@@ -1,10 +1,10 @@
 // Kernel text: the closest point and the best direction in the maximum norm.
 //
 // A direction w shows a distance of min_k w.c_k / |w|_1; an axis, the hull's normal, or an edge crossed with
-// an axis shows all of it (docs/theory.md, L8). The closest point is where a diagonal meets the plane, or on
-// a side: at an end, or where one component of f is zero or two are equal up to sign.
+// an axis shows all of it (docs/theory.md, L8). The closest point is where a diagonal meets the plane, or an
+// end of a side, or where one component is zero or two are equal up to sign.
 
-// Keeps w, in the sign that separates better, if its margin is the largest so far.
+// Keeps w, in the better sign, if its margin is the largest so far.
 template <class V, int K>
 inline void consider(const V (&c)[K][3], const V (&w)[3], V (&best)[3], V& margin) {
   V low = dot(w, c[0]), high = low;
@@ -32,7 +32,6 @@ inline void consider_side(const V (&c)[K][3], const V (&p)[3], const V (&q)[3], 
   }
 }
 
-// Computes the least max_a |f_a| over the segment p q.
 template <class V>
 inline V largest_component_of(const V (&f)[3]) {
   return max(abs(f[0]), max(abs(f[1]), abs(f[2])));
@@ -73,8 +72,8 @@ inline void sides(const V (&c)[3][3], V (&w)[3], V& margin, V& least) {
   }
 }
 
-// Takes the point of the plane on the diagonal that the normal's signs choose, s sign(n) with s = n.c_0 /
-// |n|_1, and moves it into the hull.
+// Takes the point s sign(n), s = n.c_0 / |n|_1, where the diagonal that the normal's signs choose meets the
+// plane, and moves it into the hull.
 template <class V, int K>
 inline V least_inside(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3], const V (&n)[3]) {
   const V s = dot(n, c[0]) / ((abs(n[0]) + abs(n[1])) + abs(n[2]));
@@ -92,7 +91,7 @@ inline V least_inside(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3], co
   return largest_component_of(f);
 }
 
-// Finds the best direction, of Euclidean length 1, and the largest component of the closest point found.
+// The best direction, of Euclidean length 1, and the largest component of the closest point found.
 template <class V, int K>
 inline V closest_direction_in_maximum_norm(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3], V (&w)[3]) {
   V margin = V::all(-0x1p1000), least = V::all(0x1p1000), n[3];
