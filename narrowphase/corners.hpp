@@ -13,7 +13,7 @@ struct Corners {
   // The edges e[end][i] in the same units, one rounding each: a, b or v0 v1, v1 v2, v2 v0.
   double e[2][3][3] = {};
   double unit = 1;
-  // Bounds the Euclidean norm of the largest magnitudes by axis.
+  // An upper bound of the Euclidean norm of the largest magnitudes by axis.
   double rho = 0;
 
   // Computes the corners at t within 3u rho beyond their own u rho; exact at both ends.

@@ -58,7 +58,8 @@ void PairDecision::sharpen(PairResult& result) const {
   result.toi = result.step_limit = time->lo;
 }
 
-// Corners move by at most 2 rho in the whole step.
+// Corners move by at most 2 rho in the whole step, which bounds the distance of a pair that touches by
+// time.hi.
 double PairDecision::distance_before_touching(const DoubleBracket& time) const {
   return std::min(distance_at(time.lo), 2 * corners().rho * (time.hi - time.lo) * (1 + 0x1p-40) + 0x1p-1074);
 }

@@ -13,8 +13,8 @@ constexpr double kEta = 0x1p-1074;
 // A part of the domain with F at its corners. Edge-edge: a box of (t, u, v), corner 4 it + 2 iu + iv.
 // Vertex-face: an interval of t times a part of the triangle, corner 3 it + j.
 //
-// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two (paper, eq. 6);
-// |m^ - m| <= (e + e)/2 + u |m^| + eta/2 per axis (docs/theory.md, L20).
+// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two (paper, eq. 6).
+// The running bound per axis is |m^ - m| <= (e + e)/2 + u |m^| + eta/2 (docs/theory.md, L20).
 struct Box {
   double f[8][3];
   double error[3];
@@ -54,7 +54,7 @@ class Search {
         root.f[k][a] = begin[k][a];
         root.f[per_end_ + k][a] = in_.corners.c[1][k][a];
       }
-    // 4 roundings; 4.25 covers second order.
+    // A corner at t_begin carries 4 roundings; 4.25 covers second order.
     for (int a = 0; a < 3; ++a)
       root.error[a] = 4.25 * kU * largest(root, a) * (1 + 0x1p-50) + kEta + corner_floor(a);
     root.t0 = in_.t_begin;
@@ -87,8 +87,8 @@ class Search {
     return m;
   }
 
-  // Whether the box of F's corners, grown by the error, misses the ball (or cube) of radius d (paper, line 9;
-  // docs/theory.md, L21).
+  // Tells whether the box of F's corners, grown by the error, misses the ball (or cube) of radius d (paper,
+  // line 9; docs/theory.md, L21).
   bool separated(const Box& b) const {
     const double d = in_.separation;
     double squares = 0;
@@ -104,8 +104,8 @@ class Search {
     return separated_along_axes(b);
   }
 
-  // Any n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too: the pair's normal, the mean of
-  // the corners.
+  // Any n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too; this tries the pair's normal and
+  // the mean of the corners.
   bool separated_along_axes(const Box& b) const {
     double u[3], v[3], n[3], mean[3] = {};
     const int k = per_end_;
@@ -136,7 +136,7 @@ class Search {
     return std::max(lo, -hi) > wanted;
   }
 
-  // Whether every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line 15;
+  // Tells whether every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line 15;
   // docs/theory.md, L22), or it is too narrow to halve.
   bool small(const Box& b) const {
     const double middle = 0.5 * (b.t0 + b.t1);

@@ -24,7 +24,7 @@ struct InclusionResult {
   enum class End { free, contact, max_checks } end = End::free;
   // Certified apart on [t_begin, t); contact: some point is within d + delta near t.
   double t = 1;
-  // Contact and max_checks: a scaled upper bound at t.
+  // Contact and max_checks: a scaled upper bound of the distance at t.
   double distance = 0;
   std::int64_t checks = 0;  // boxes examined
 };

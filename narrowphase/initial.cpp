@@ -54,8 +54,8 @@ Side side_at_start(const InitialCase& c) {
   return {unit(cross(edge(0), edge(1))), sign};
 }
 
-// Returns n with n.c >= -noise at both times, > 0 at the second: the mean of that cone's extreme rays; else
-// 0.
+// Returns a direction n with n.c >= -noise at both times and > 0 at the second, the mean of that cone's
+// extreme rays; 0 where there is none.
 Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, double noise) {
   Vec p[8];
   int count = 0;

@@ -17,7 +17,7 @@ struct InitialCase {
   int row;  // the pair, in `pairs`
   PairKind kind;
   double separation;  // d, scaled as the corners
-  // Of unit length, separates the pair best at a time.
+  // Returns the unit direction that separates the pair best at a time.
   const std::function<Vec(double)>& direction;
   // Null: the pair may touch as it parts.
   const ExactPair* exact;

@@ -79,7 +79,7 @@ class Interval {
   Vec corner(int k, int end) const { return vec(corners_.c[end][k]); }
   Vec edge(int i, int end) const { return vec(corners_.e[end][i]); }
 
-  // The corner that stays nearer has the smaller error.
+  // Returns the corner that stays nearer: its products carry the smaller error.
   int nearer(const int (&members)[2]) const {
     const auto size = [&](int k) {
       const Vec r = largest(corner(k, 0), corner(k, 1));
@@ -105,7 +105,8 @@ class Interval {
     const double reach = std::sqrt(std::max(dot(ea, ea), dot(eb, eb))) * (1 + 0x1p-48);
     const double separation = wanted_ * dual_norm(m, false) * reach * (maximum_norm_ ? 2 : 1);
     for (int i = 0; i < 2; ++i) {
-      // In units of u sum |m_a| P_a a product carries 14 roundings at most.
+      // In units of u sum |m_a| P_a a product carries 14 roundings; 16 covers second order (docs/theory.md,
+      // L19).
       const Vec r = largest(corner(member[i], 0), corner(member[i], 1));
       double error = 0;
       for (int a = 0; a < 3; ++a) {

@@ -57,7 +57,8 @@ NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
   if (input.for_many) rounded_ = round_positions(input.motion, scale_);
 }
 
-// Covers 16 E7 <= 201u extent (docs/theory.md, L18) and the inclusion root finder's errors (L22).
+// 2^-45 extent covers 16 E7 <= 201u extent (docs/theory.md, L18), and the inclusion root finder's errors
+// (L22).
 double reported_within(double tolerance, double extent) {
   return std::max(tolerance, 0x1p-45 * extent + 0x1p-1070) * (1 + 0x1p-40);
 }
@@ -88,7 +89,8 @@ void NarrowPhase::gather(PairKind kind, const IdPair* pairs, std::size_t count,
 KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                                  NarrowPhaseScratch& scratch) const {
   gather(kind, pairs, count, scratch);
-  // The inclusion root finder takes over after one check, which fixes the tolerance.
+  // The inclusion root finder takes over after one check, which fixes the tolerance and finds pairs that
+  // start within d.
   const bool inclusion_only = in_.inclusion_only();
   return {in_.motion.x.data(),
           rounded_.data(),

@@ -40,7 +40,7 @@ struct NarrowPhaseInput {
   bool inclusion_only() const { return options.narrow_phase == NarrowPhaseMethod::inclusion; }
 };
 
-// How far beyond what it must keep a pair is reported, model length, unless its checks are spent.
+// Returns how far beyond what it must keep a pair may be reported, model length, unless its checks are spent.
 double reported_within(double tolerance, double extent);
 
 // A pair that is not certified free.
@@ -57,7 +57,7 @@ struct PairResult {
   Certainty certainty = Certainty::within_tolerance;
   // Where certain: the pair touches by then.
   double toi_hi = INFINITY;
-  // Of the contact at step_limit.
+  // The certainty of the contact at step_limit.
   Certainty limit_certainty = Certainty::within_tolerance;
   // A step whose end is stored may be 0, or anything in [clear_from, stored_limit].
   double stored_limit = INFINITY, clear_from = 0;

@@ -54,7 +54,8 @@ std::optional<PairResult> PairDecision::contact(const KernelResult& checked, dou
   return contact_at_start(found.separation > 0 ? start : bounds_at(0), found, exact);
 }
 
-// Certifies intervals, or goes on for a while: contacts of degenerate pairs converge slowly but steadily.
+// Certifies intervals, or goes on regardless for a while, as contacts of degenerate pairs converge slowly but
+// steadily. What neither finishes is left for the inclusion root finder.
 KernelResult PairDecision::push_on(KernelResult r) const {
   constexpr double kPatience = 200;
   const double wanted = (r.separation + 0.5 * r.delta) * (1 + 0x1p-49);
@@ -123,8 +124,9 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
   return r;
 }
 
-// A pair that touches blocks the step, since the side that it came from is not known, unless the caller says
-// otherwise. Where the motion parts others, the step goes on to the next contact.
+// Reports a pair that touches or is closer than d at the start. The side that a touching one came from is not
+// known: it blocks the step, unless the caller says otherwise. Where the motion parts others, the step goes
+// on to the next contact.
 PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResult& found, const ExactAnswer& exact) {
   const double d = found.separation;
   PairResult r{asked_.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),

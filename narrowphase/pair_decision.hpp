@@ -11,10 +11,10 @@
 
 namespace onset {
 
-// Share of the tolerance: so sharp a look costs about one check more, and tells most pairs that pass within
-// the tolerance from contacts.
+// Share of the tolerance: to look so sharply costs about one check more, and tells most pairs that pass
+// within the tolerance from contacts.
 constexpr double kSharpness = 0.0625;
-// Share of the pair's size: hand-made near misses have gaps of 1e-11 of it.
+// Share of the pair's size that is given away at most: hand-made near misses have gaps of 1e-11 of it.
 constexpr double kSharpest = 0x1p-38;
 
 // 16 E7, of rho: advancement tells no less (docs/theory.md, (9.2)).
@@ -23,9 +23,10 @@ constexpr double kLeastTolerance = 116 * 0x1p-53;
 // Of rho: a certificate of a start sees no smaller gap.
 constexpr double kStartNoise = 16 * 0x1p-53;
 
-// The same pairs on the exact motion.
+// Returns the same pairs, asked of the exact motion only.
 KernelPairs without_storing(KernelPairs pairs, double t_max);
 
+// Row `row` of a batch of one kind.
 struct PairQuestion {
   const NarrowPhaseInput& in;
   const KernelsOfKind& kernels;
@@ -48,7 +49,7 @@ class PairDecision {
   // Finds how far the pair lets a stored step go, and the contact of its exact motion.
   std::optional<PairResult> stored_step(const KernelResult& checked);
 
-  // Gives a contact its exact time: adjacent doubles toi and toi_hi.
+  // Gives a contact found at Exactness::exact its exact time: adjacent doubles toi and toi_hi.
   void sharpen(PairResult& result) const;
 
  private:

@@ -17,8 +17,8 @@ double least(const Corners& corners, double t, const Vec& w) {
   return r;
 }
 
-// Returns the time until which w, held fixed, keeps the pair beyond `wanted` from t on; t for none, 2 for the
-// whole rest (docs/theory.md, L9).
+// Returns the time until which w, held fixed, certifies the pair beyond `wanted` from t on; t for none, 2 for
+// the whole rest (docs/theory.md, L9).
 double certified_until(const Corners& corners, const Vec& w, double norm, double wanted, double t) {
   const double bound = 4.25 * kU * corners.rho + wanted * norm * (1 + 0x1p-49);
   double until = 2;
@@ -66,7 +66,7 @@ Parting PairDecision::find_parting_of(const Bounds& start, double separation, bo
 }
 
 // Goes on at t, where `at` shows the pair beyond d + kept. Where the full demand certifies nothing, d + kept
-// does: a start that is apart never gets 0 (docs/theory.md, T9).
+// alone does: a start that is apart never gets 0 (docs/theory.md, T9).
 KernelResult PairDecision::advance_from(const Bounds& at, double t, double kept) const {
   const double e7 = 7.25 * kU * corners().rho, unit = corners().unit, d = separation() / unit + kept;
   const double apart = at.lower - d;

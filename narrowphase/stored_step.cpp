@@ -14,7 +14,7 @@
 namespace onset {
 
 struct PairDecision::StoredLimit {
-  // A step may end at 0 or in [from, found.t], from `from` on where free.
+  // A step may end at 0 or in [from, found.t], or anywhere from `from` on where the verdict is free.
   double from = 0;
   KernelResult found{};
 };
@@ -40,7 +40,7 @@ std::optional<PairResult> PairDecision::from_scratch() {
   return contact(r);
 }
 
-// As an active set decides it, whatever t_max is.
+// Finds the contact of the exact motion as an active set does, whatever t_max is.
 std::optional<PairResult> PairDecision::exact_motion() {
   if (in_.contacts != nullptr && !in_.contacts->holds(in_.contacts->context, asked_.kind, asked_.pair)) return std::nullopt;
   const KernelPairs plain = without_storing(pairs_, 1);
@@ -99,7 +99,7 @@ KernelResult PairDecision::limit_from(const Bounds& at, double t, double kept) {
   return carry_on(found, searched);
 }
 
-// The first of some times with a distance beyond `wanted`.
+// Returns the first of some times at which the pair is beyond `wanted`; infinite for none.
 double PairDecision::clear_time(double wanted) const {
   for (double t = 0x1p-52; t <= 1; t *= 16)
     if (bounds_at(t).lower > wanted) return t;
@@ -130,7 +130,8 @@ PairDecision::StoredLimit PairDecision::limit_from_start(std::optional<PairResul
   return limit_of_small_gap(contact);
 }
 
-// Beyond d at the start by less than storing can close: the step may end where the pair is clear of that.
+// Limits a pair that is beyond d at the start by less than storing can close: the step may end where it is
+// clear of that.
 PairDecision::StoredLimit PairDecision::limit_of_small_gap(const std::optional<PairResult>& contact) {
   const double d = separation() / corners().unit, kept = storing_rounding() * (1 + 0x1p-20);
   const double clear = clear_time(d + kept + 2 * kStartNoise * corners().rho);
@@ -143,9 +144,9 @@ PairDecision::StoredLimit PairDecision::limit_of_small_gap(const std::optional<P
   return {clear, limit_from(bounds_at(clear), clear, kept)};
 }
 
-// Within d and parting, the distance does not fall but for noise (docs/theory.md, (17.1)). Stored, the pair
-// must not touch: where that is close, the step may end once it is clear, and certified so until it has
-// parted.
+// Limits a pair that is within d at the start and parts; its distance does not fall but for noise
+// (docs/theory.md, (17.1)). Stored, it must not touch: where that is close, the step may end once the pair is
+// clear, and certified so until it has parted.
 PairDecision::StoredLimit PairDecision::limit_after_parting(const Bounds& start) {
   const double rounding = storing_rounding() * (1 + 0x1p-20), d = separation() / corners().unit;
   const double noise = kStartNoise * corners().rho;

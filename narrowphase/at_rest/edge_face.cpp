@@ -20,7 +20,7 @@ int certain_sign(double x, double bound) {
 }
 
 // Bounds the error of fl((a x b).c), 49u A B C and underflow, for rounded differences a, b, c of points with
-// components up to A, B, C (docs/theory.md, §19); not finite where anything overflows.
+// components up to A, B, C (docs/theory.md, §19). It is not finite where anything overflows.
 double volume_bound(double A, double B, double C) { return 0x1p-46 * ((A * B + 0x1p-1000) * C) + 0x1p-1070; }
 
 // Tells whether a plane of normal m, any doubles, has the points p on one side and q on the other. m.(p_i -

@@ -38,7 +38,8 @@ class ExactEdgeFace {
     return on || s0 == 0 || s1 == 0 ? EdgeFace::touching : EdgeFace::crossing;
   }
 
-  // Decides for a face that is the segment from `first` to `last`. overlapping: all are on one line.
+  // Decides for a face that is the segment from `first` to `last`. overlapping: all are on one line, and what
+  // they share is left open.
   static EdgeFace of_segments(const Point& e0, const Point& e1, const Point& first, const Point& last) {
     const Point u = difference(e1, e0), v = difference(last, first), w = difference(first, e0);
     const auto m = exact_cross<M>(u, v), s = exact_cross<M>(w, v), t = exact_cross<M>(w, u);

@@ -8,7 +8,8 @@
 namespace onset {
 namespace {
 
-// The polygon of differences and the cube of half width d, scaled so that none is above 4.
+// The polygon of differences and the cube of half width d, scaled so that none is above 4. Underflow is far
+// less than the rounding that is counted here.
 struct Differences {
   Vec corner[4];
   int count;

@@ -31,7 +31,7 @@ void put_direction(const Vec& n, double (&direction)[3]) {
   for (int i = 0; i < 3; ++i) direction[i] = n[i] + 0.0;
 }
 
-// A convex mean of the corners, within 5u rho (docs/theory.md, L42).
+// Computes the point as a convex mean of the corners, within 5u rho (docs/theory.md, L42).
 Vec point_at(const Differences<double>& d, const Foot& f) {
   const Vec(&c)[4] = d.corner;
   if (d.kind == PairKind::vertex_face) return ((1 - f.U - f.V) * c[0] + f.U * c[1]) + f.V * c[2];
@@ -39,14 +39,15 @@ Vec point_at(const Differences<double>& d, const Foot& f) {
   return (1 - f.U) * first + f.U * second;
 }
 
-// In units of the pair. A point's length and a margin err by 7.5u rho < 8u rho (docs/theory.md, L42), and by
-// what `blur` the differences have.
+// In units of the pair. A point's length and a margin err by 7.5u rho, for which 8u is taken (docs/theory.md,
+// L42); `blur` is what else the differences are off by.
 struct Bounds {
   double distance, lower, upper;
 };
 constexpr double kRounding = 0x1p-50, kWidest = 0x1.8p-48;  // 8u, 48u
 
-// Returns false where doubles do not tell: for ties, thin primitives, and pairs that may touch.
+// Finds all in doubles. Returns false where they do not tell: for ties, thin primitives, and pairs that may
+// touch.
 bool find(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
   const Plane<double> plane(d);
   Nearest<double> nearest;

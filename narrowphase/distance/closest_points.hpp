@@ -27,17 +27,17 @@ struct ClosestPoints {
 // x: the pair's four points, finite and within kMaxCoordinate.
 ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]);
 
-// The same at time t of the exact motion from x0 to x1; rho is that of both ends where the one at t is less
+// Finds them at time t of the exact motion from x0 to x1; rho is that of both ends where the one at t is less
 // than 2^-40 of it.
 ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
                              double t);
 
-// The same in doubles, in the unit of the differences, which are one rounding and `blur` off: bounds grow by
-// 8 blur. Returns false where doubles do not tell, or the pair may touch.
+// Finds them in doubles, in the unit of the differences, which are one rounding and `blur` off: bounds grow
+// by 8 blur. Returns false where doubles do not tell, or the pair may touch.
 bool quick_closest_points(const Differences<double>& d, double blur, ClosestPoints& r);
 
-// The same in double-doubles, in the unit of the differences, which are below 2^10 and off by `blur` at most;
-// the direction is right within u + 2^-96 rho^2 / distance^2.
+// Finds them in double-doubles, in the unit of the differences, which are below 2^10 and off by `blur` at
+// most; the direction is right within u + 2^-96 rho^2 / distance^2.
 ClosestPoints precise_closest_points(const Differences<DoubleDouble>& d, double blur);
 
 }  // namespace onset

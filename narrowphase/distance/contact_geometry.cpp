@@ -50,7 +50,7 @@ class Touching {
     if (plane_.resolved) across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
   }
 
-  // The side of a x b that the pair came from, inside both primitives; 0: not known.
+  // Returns the side of a x b that the pair came from, inside both primitives; 0: not known.
   int side() const {
     const int s = side_before(pair_, t_);
     return pair_.kind == PairKind::vertex_face ? s : -s;
@@ -111,9 +111,9 @@ struct Geometry {
   bool degenerate;
 };
 
-// Returns false where the gap is not wide, or the motion along it not more than rounding. Mixed differences
-// err by 4u, motions by 12u of their sizes; the direction by 2^-17 where features tie, else 2^-40
-// (docs/theory.md, §16.4).
+// Finds all in doubles; false where the gap is not wide, or the motion along it not more than rounding. Mixed
+// differences err by 4u, motions by 12u of their sizes, the direction by 2^-17 where features tie and else by
+// 2^-40 (docs/theory.md, §16.4).
 bool wide_geometry(const ExactPair& pair, double t, Geometry& f) {
   const double scale = inverse_unit(
       std::max(largest_corner_component(pair.kind, pair.t0), largest_corner_component(pair.kind, pair.t1)));

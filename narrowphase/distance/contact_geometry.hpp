@@ -14,8 +14,8 @@ struct ContactGeometry {
   // are in their primitives.
   std::array<double, 4> weights{};
   // Unit, in the caller's axes: the direction of p1 - p2, square to the face or both edges where the points
-  // are inside. Where the pair touches inside, the side is that from which it came, exactly; where it touches
-  // at a boundary, or nearly, any direction that does, from where it came.
+  // are inside. A pair that touches inside has it on the side from which it came, exactly; one that touches
+  // at a boundary, or nearly, some direction that leads there.
   std::array<double, 3> normal{};
   double gap = 0;  // |p1 - p2|, model length
   // The motion of p1 - p2 along the normal over the whole step, model length; below 0 it is closing.
@@ -25,8 +25,9 @@ struct ContactGeometry {
   bool degenerate = false;
 };
 
-// At time t, until which the pair is apart; the weights give p1 - p2 within about 20u rho. `parting`: the
-// pair is in contact at t = 0, so its past lies on the side that it moves to.
+// Computes them at time t, until which the pair is apart; the weights give p1 - p2 within about 20u rho, rho
+// the largest corner difference. `parting`: the pair is in contact at t = 0, so its past lies on the side
+// that it moves to.
 ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
                            bool parting);
 

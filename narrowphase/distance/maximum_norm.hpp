@@ -5,7 +5,7 @@
 
 namespace onset {
 
-// Returns w of Euclidean length 1; 0 where all corners are. The distance is min_k w.c_k / |w|_1 but for the
+// Returns w of Euclidean length 1; 0 where all corners are 0. The distance is min_k w.c_k / |w|_1 but for the
 // rounding of w, a few u of the largest corner.
 Vec best_direction_in_maximum_norm(const Differences<DoubleDouble>& d);
 

@@ -29,7 +29,7 @@ struct Differences {
   }
 };
 
-// Of a length of 1, the least width that is resolved; and the least square that holds.
+// The least width that is resolved, of a length of 1, and the least square that is trusted.
 template <class T>
 struct Precision;
 template <>

@@ -160,7 +160,7 @@ class CompleteDecision {
     Polynomial on_line;  // zero where w x e = 0
     for (int k = 0; k < 3; ++k) on_line = greatest_common_divisor(on_line, cross(s.w, s.e, k));
     const Polynomial h = extent(s);
-    if (on_line.is_zero()) {  // h, negative at 0, reaches zero
+    if (on_line.is_zero()) {  // collinear for all t: h, negative at 0, reaches zero
       auto roots = isolated_roots(h);
       if (!roots.empty()) found(roots.front());
       return;

@@ -1,6 +1,6 @@
-// The first contact after t = 0 is on the boundary of {U a + V b} (docs/theory.md, L41): for a segment, w x e
-// = 0 and h = w.(e - w) >= 0. It is a root of one of these quadratics, at which the others are alpha + beta
-// sqrt(d) up to a factor.
+// Without a contact at t = 0 the first one is on the boundary of {U a + V b} (docs/theory.md, L41): for a
+// segment, w x e = 0 and h = w.(e - w) >= 0. It is a root of one of these quadratics, at which the others are
+// alpha + beta sqrt(d) up to a factor.
 //
 // For coordinates of q, a, b below 2^c coefficients are below 2^m, m = 2c + 7, and a root is (u + v sqrt(d))
 // / w with |u|, |w| < 2^(m + 1), d < 5 * 2^(2m) (§15.5).
@@ -48,7 +48,7 @@ struct Coplanar {
     return r;
   }
 
-  // g's sign in (0, 1]; 0: not certain.
+  // Returns g's sign in (0, 1]; 0: not certain.
   static int definite_sign(const Quadratic& g) {
     const Coefficient twice = g.a + g.a;
     const int first = sign_of(g.a), middle = sign_of(twice + g.b), last = sign_of(g.a + g.b + g.c);
@@ -94,7 +94,7 @@ struct Coplanar {
     return a * sign_of(x * x - y * y * Compared(d));
   }
 
-  // Of w^2 g at the root.
+  // Returns the sign of w^2 g at the root.
   static int sign_at(const Quadratic& g, const Root& r) {
     const Product u = r.u, w = r.w;
     const Product squares = r.v == 0 ? u * u : u * u + r.d;
@@ -121,7 +121,7 @@ struct Coplanar {
     }
   };
 
-  // Returns about the root, without cancellation.
+  // Approximates the root without cancellation.
   static double approximately(const Root& r) {
     const double u = estimate(r.u), w = estimate(r.w), s = r.v * std::sqrt(estimate(r.d));
     if (u * s >= 0) return (u + s) / w;
@@ -141,7 +141,7 @@ struct Coplanar {
       extent = w[0] * rest[0] + w[1] * rest[1] + w[2] * rest[2];
     }
 
-    // The first time in (0, 1] at which the point is on the segment; it is not at t = 0.
+    // Finds the first time in (0, 1] at which the point is on the segment; it is not at t = 0.
     CoplanarContact first(bool adjacent) const {
       if (definite_sign(extent) < 0) return {};
       const Quadratic* moving = nullptr;

@@ -33,7 +33,7 @@ IntegerPoints<C> points_on_grid(const double* const (&points)[4], int last) {
 // For coordinates of q, a, b below 2^(bits + 1) (docs/theory.md, L37).
 int cubic_bits_for(int bits) { return 3 * (bits + 1) + 5; }
 
-// Below 0: it does not fit.
+// Returns how deep a search may go; below 0: it does not fit.
 int depth_for(int bits, int width) {
   const int room = width - 2 - cubic_bits_for(bits);
   return room < 0 ? -1 : std::min(room / 3, kDeepest);

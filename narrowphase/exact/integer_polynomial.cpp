@@ -59,7 +59,7 @@ Division pseudo_divide(const IntegerPolynomial& p, const IntegerPolynomial& d) {
 
 using Coefficients = std::vector<Integer>;
 
-// On [k, k + 1] / 2^depth, up to a positive factor.
+// Returns Bernstein coefficients on [k, k + 1] / 2^depth, up to a positive factor.
 Coefficients bernstein(const IntegerPolynomial& p, const Integer& k, unsigned depth) {
   const int n = p.degree();
   Coefficients c;
@@ -101,7 +101,7 @@ int sign_changes(const Coefficients& b) {
   return changes;
 }
 
-// Finds the roots in the open interval; ends for square-free p, as short pieces have at most one sign change.
+// Finds the roots in the open interval. It ends for square-free p: short pieces have at most one sign change.
 void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k, unsigned depth,
              std::vector<IsolatedRoot>& roots) {
   const int changes = sign_changes(b);
@@ -175,7 +175,8 @@ bool has_one_sign(const Coefficients& b) {
   return sign_changes(b) == 0 && !b.front().is_zero() && !b.back().is_zero();
 }
 
-// Halves the root's interval, at most `rounds` times unless < 0, until g has one sign in it; g's sign, or 0.
+// Halves the root's interval until g has one sign in it, at most `rounds` times unless that is < 0; returns
+// g's sign, or 0.
 int narrow_to_one_sign(const IntegerPolynomial& g, IsolatedRoot& root, int rounds) {
   Coefficients p = bernstein(root.p, root.k, root.depth), left_p, right_p;
   Coefficients b = bernstein(g, root.k, root.depth), left, right;
@@ -204,7 +205,7 @@ int sign_at(const IntegerPolynomial& g, IsolatedRoot& root) {
   if (g.degree() < 1) return g.is_zero() ? 0 : g[0].sign();
   constexpr int kCheap = 6;
   if (const int s = narrow_to_one_sign(g, root, kCheap); s != 0 || root.exact) return s;
-  // The common divisor's only root in the interval can be this one, a simple one.
+  // The common divisor can have only this root in the interval, and it is simple.
   const IntegerPolynomial common = greatest_common_divisor(root.p, g);
   if (common.degree() > 0 && sign_at(common, root.k, root.depth) != sign_at(common, root.k + 1, root.depth))
     return 0;

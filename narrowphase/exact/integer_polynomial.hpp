@@ -32,9 +32,9 @@ class IntegerPolynomial {
 };
 
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial a, IntegerPolynomial b);
-// With the same roots, each once; p != 0.
+// Returns a polynomial with the same roots, each once; p != 0.
 IntegerPolynomial square_free(const IntegerPolynomial& p);
-// Of p at numerator / 2^exponent.
+// Returns the sign of p at numerator / 2^exponent.
 int sign_at(const IntegerPolynomial& p, const Integer& numerator, unsigned exponent);
 
 // A root of the square-free p: at k / 2^depth (exact), or the only one inside [k, k + 1] / 2^depth.
@@ -44,11 +44,11 @@ struct IsolatedRoot {
   unsigned depth = 0;
   bool exact = false;
 };
-// Where in its interval the root lies, from 0 to 1, roughly; degree <= 3.
+// Returns where in its interval the root lies, from 0 to 1, roughly; degree <= 3.
 double position_in_interval(const IsolatedRoot& root);
 // Finds the roots of f != 0 in [0, 1], in increasing order.
 std::vector<IsolatedRoot> isolated_roots(const IntegerPolynomial& f);
-// Of g at the root, whose interval may narrow. It always ends: common divisors tell zero.
+// Returns the sign of g at the root, whose interval may narrow. It always ends: common divisors tell zero.
 int sign_at(const IntegerPolynomial& g, IsolatedRoot& root);
 
 }  // namespace onset

@@ -39,7 +39,7 @@ inline Dyadic to_dyadic(double t) {
   return e < 0 ? Dyadic{m << -e, 0} : Dyadic{m, e};
 }
 
-// About the root in (0, 1) of the cubic with Bernstein coefficients c, c[0] c[3] < 0.
+// Approximates the root in (0, 1) of the cubic with Bernstein coefficients c, c[0] c[3] < 0.
 inline double approximate_root(const double (&c)[4]) {
   const double c1 = 3 * (c[1] - c[0]), c2 = 3 * (c[0] - 2 * c[1] + c[2]),
                c3 = (c[3] - c[0]) - 3 * (c[2] - c[1]);
@@ -53,8 +53,8 @@ inline double approximate_root(const double (&c)[4]) {
   return s;
 }
 
-// Narrows (lo, hi) around one root to adjacent doubles. sign(t) is exact and in units of that at lo. The
-// stride doubles, so a good guess takes three signs.
+// Narrows (lo, hi) around one root to adjacent doubles. sign(t) is exact, in units of that at lo: it turns
+// negative at the root. The stride doubles, so a good guess takes three signs.
 template <class Sign>
 DoubleBracket adjacent_doubles(double lo, double hi, double guess, Sign&& sign) {
   std::uint64_t a = double_bits(lo), b = double_bits(hi), stride = 1;

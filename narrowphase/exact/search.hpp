@@ -1,10 +1,9 @@
 // The search for a pair's first contact in integers of fixed width, which decides all that is generic
 // (docs/theory.md, §15.3).
 //
-// f(t) = q.(a x b) is zero at every contact. Where N = (a x b)_k != 0, a root is a contact iff U = (q x b)_k,
-// V = (a x q)_k and N - U - V (vertex-face) or N - U, N - V (edge-edge) have N's sign or are zero (L38).
-// Bernstein coefficients of all are halved in time, multiplied by 8 (cubic) or 4 (quadratic) so that they
-// stay integers, until their signs decide.
+// At a root of f(t) = q.(a x b), where N = (a x b)_k != 0, contact needs N's sign or 0 of U = (q x b)_k, V =
+// (a x q)_k and N - U - V (vertex-face) or N - U, N - V (edge-edge) (L38). Bernstein coefficients are halved
+// in time, multiplied by 8 (cubic) or 4 (quadratic) to stay integers, until their signs decide.
 #pragma once
 
 #include <cstdint>
@@ -72,7 +71,7 @@ class ExactSearch {
     return T(u[0]) * T(v[0]) + T(u[1]) * T(v[1]) + T(u[2]) * T(v[2]);
   }
 
-  // f_ gets three times the Bernstein coefficients of f.
+  // Sets f_ to three times the Bernstein coefficients of f.
   Normal set_cubic() {
     const Normal n{exact_cross<M>(r0_.a, r0_.b),
                    sum(exact_cross<M>(r0_.a, r1_.b), exact_cross<M>(r1_.a, r0_.b)),
@@ -85,7 +84,7 @@ class ExactSearch {
     return n;
   }
 
-  // Twice the Bernstein coefficients of component k of u x v.
+  // Sets g to twice the Bernstein coefficients of component k of u x v.
   static void set_quadratic(int k, const std::array<C, 3> (&u)[2], const std::array<C, 3> (&v)[2],
                             T (&g)[3]) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -128,7 +127,7 @@ class ExactSearch {
   static bool has_no_root(const T (&c)[D]) {
     return definite_sign(c) != 0;
   }
-  // The sign in the open interval; 0: not certain, or zero throughout.
+  // Returns the sign in the open interval; 0: not certain, or zero throughout.
   template <int D>
   static int definite_sign(const T (&c)[D]) {
     bool positive = false, negative = false;
@@ -240,7 +239,7 @@ class ExactSearch {
     return Widths::fit((cubic_bits_ - 5) / 3) && vanishes_at_root(Widths(), f_, g, k, depth, changes_sign);
   }
 
-  // Twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
+  // Returns twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
   static Wide<N> polarised(const T (&g)[3], const Wide<N>& x, const Wide<N>& x1, const Wide<N>& one) {
     const Wide<N> y = one - x, y1 = one - x1;
     return Wide<N>(g[0]) * (y * y1) + Wide<N>(g[1]) * (x * y1 + x1 * y) + Wide<N>(g[2]) * (x * x1);

@@ -3,8 +3,8 @@
 // From t the pair goes on as far as the best direction there, its linear continuation or the pair's own
 // normal can certify. With `apart` the certified excess of the distance over d at t = 0, delta =
 // max(min(tolerance, apart/4), 16 E7); certificates demand d + delta/2, and a contact is a witness within d +
-// delta. So toi is never late, and a pair that never loses 3/4 of a gap above rounding is never reported
-// (docs/theory.md, T1).
+// delta. So toi is never late, and a pair that never loses 3/4 of its initial gap is never reported, unless
+// 16 E7 is more than a quarter of it (docs/theory.md, T1).
 
 // Looks at time t: finds the best direction and an upper bound of the distance.
 template <class V, int K>
@@ -169,7 +169,7 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   V w[3], dist;
   closest_direction(s, s.t, maximum_norm, w, dist);
   const V e7 = V::all(7.25 * kU) * s.rho;
-  // By (w.c - error) / |w|*, |w|* the dual norm (docs/theory.md, L17).
+  // (w.c - error) / |w|*, with the dual norm, is a lower bound of the distance (docs/theory.md, L17).
   V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
   auto unsure = apart <= zero<V>();
   if (pairs.gap_share > 0 || pairs.storing > 0) {
@@ -192,7 +192,7 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   const int initial = bits(unsure) | ~bits(apart > zero<V>());
   const int moved = bits(s.t > zero<V>());
   for (int l = 0; l < 4; ++l) {
-    // Near contact at 0, yet certified until later: looked at there, if a check is left.
+    // A pair near contact at 0 that is certified until later is looked at there, if a check is left.
     if (verdict[l] == int(Verdict::contact) && (moved >> l & 1))
       verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::max_checks);
     if (initial >> l & 1) verdict[l] = int(Verdict::initial);

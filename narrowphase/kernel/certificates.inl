@@ -3,7 +3,7 @@
 // In units of u rho (docs/theory.md, §1.2) a product w.c_k errs by at most E4 = 4.25 for a fixed w at every
 // time (4 roundings; L4), E7 = 7.25 where corners are mixed at t (7; L5), E8 = 8.25 max(|w_b|, 1) in a
 // coefficient of a turning direction (8; L6). The factors 1.0625, 1.036 and 1.031 cover second order, |w| <=
-// 1 + 5u, rho's rounding and underflow.
+// 1 + 5u, rho's rounding, and underflow, as the largest corner component is in [1, 2).
 
 template <class V>
 inline V certified(typename V::Mask ok, V time) {

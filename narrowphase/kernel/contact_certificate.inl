@@ -1,11 +1,11 @@
 // Kernel text: a proof that a contact is real, in double lanes (docs/theory.md, §14).
 //
-// The pair touches iff q = U a + V b with (U, V) in the triangle or square; q, a, b are linear in t with
-// components up to Mq, Ma, Mb. Where f = q.(a x b) has opposite signs at lo < hi, and for a fixed n all of
-// n.(q x b), n.(a x q) and what they leave of n.(a x b) are positive on [lo, hi], f's root there is a contact
-// (L34).
+// The pair touches iff q = U a + V b with (U, V) in the triangle or square. Where f = q.(a x b) has opposite
+// signs at lo < hi, and n.(q x b), n.(a x q) and what they leave of n.(a x b) are positive on [lo, hi] for a
+// fixed n, f's root there is a contact (L34).
 //
-// F = 3 f errs by 336u Mq Ma Mb (L35); 350 covers second order, 2^-900 underflow.
+// Mq, Ma, Mb bound the components of q, a, b. F = 3 f errs by 336u Mq Ma Mb (L35); 350 covers second order,
+// 2^-900 underflow.
 constexpr double kCubicError = 350 * kU;
 // Inside functions carry 26 roundings of |n|_1 in the middle, 30 with the subtractions of N - U - V; 32
 // covers second order. Within w <= 1/64 they change by at most 8.25 w (L36).

@@ -1,7 +1,8 @@
 // Kernel text: the culls, in single precision, eight pairs at a time; u = 2^-24 here (docs/theory.md, §12).
 //
 // Corner differences are formed in double, scaled alike for the scene and rounded to float once. A Bernstein
-// coefficient errs by 6u |w| rho; 7u covers second order, 2^-140 underflow (L23).
+// coefficient errs by 6u |w| rho; 7u covers second order and |w| <= 1 + 5u, 2^-140 underflow (L23). d is
+// rounded up by 2^-22 (L24).
 
 template <int K>
 struct FloatPairs {
@@ -11,8 +12,7 @@ struct FloatPairs {
 };
 
 // Moves the far end to t_max. A pair beyond d + reach until then is not reported earlier unless it spends its
-// checks, so the limiting pair stays the same. In double the lerp's 3u is far below float's rounding;
-// rounded_corners counts its own.
+// checks, so the limiting pair stays the same. In double the lerp's 3u is far below float's rounding.
 template <class V, int K>
 inline void cut_short(V (&c)[2][K][3], V t_max) {
   for (int k = 0; k < K; ++k)
@@ -66,10 +66,9 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
   out.error = V::all(7 * 0x1p-24f) * rho_of(out.c) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
 
-// The same from rounded positions: a difference errs by what these do and rounds once. A corner (1 - t) a + t
-// b that is cut short errs by 10u rho: t's rounding 2u, 1 - t and product 2u, t b 2u, the sum u, and a and b
-// themselves u and 2u. With 4u of product and mean that is 14u; 16u covers second order, and t_max below
-// 2^-126 (docs/theory.md, L25).
+// Makes the same from rounded positions: a difference errs by what these do and rounds once. A corner that is
+// cut short errs by 10u rho, 2u of it t's own rounding, and a coefficient by 14u; 16u covers second order,
+// and a t_max below 2^-126 (docs/theory.md, L25).
 template <int K, class Rows>
 inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& out) {
   using V = F8;
@@ -165,9 +164,9 @@ inline V initial_gap(const V (&c)[K][3], V error) {  // the point errs by < 10u 
   return (sqrt(nearest_on_boundary(c).f2) + V::all(2) * error) * V::all(1 + 0x1p-19f);
 }
 
-// Tells whether the pair's boxes, moving linearly, are apart at every time on one axis or another. On axis a
-// the pair is within m = d + error only where (1-t) s0 + t s1 >= 0, with s = max_k c_k + m and with s = m -
-// min_k c_k. Roots are known within 4u; 2^-20 = 16u is taken off (docs/theory.md, L26).
+// Tells whether the pair's boxes, moving linearly, are apart at every time on one axis or another. On an axis
+// the pair is within m = d + error only where the line from s0 to s1 is not negative, for s = max_k c_k + m
+// and s = m - min_k c_k. Roots are known within 4u; 2^-20 = 16u is taken off (docs/theory.md, L26).
 template <int K>
 inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
   using V = F8;
@@ -225,7 +224,7 @@ inline int write_survivors(int apart, Rows rows, int valid, int* out) {
   return survivors;
 }
 
-// The last row is repeated.
+// Fills the lanes of fewer than eight rows with the last one.
 template <int K, class Rows>
 inline int cull_few(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
   int here[8];

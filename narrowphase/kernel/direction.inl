@@ -22,7 +22,7 @@ inline V one() {
   return V::all(1);
 }
 
-// Afterwards |w| <= 1 + 5u, or w = 0 where |w| was out of range (docs/theory.md, L7).
+// Makes |w| <= 1 + 5u, or w = 0 where |w| is out of range (docs/theory.md, L7).
 template <class V>
 inline void normalise(V (&w)[3]) {
   const V ww = dot(w, w);

@@ -5,8 +5,8 @@
 
 namespace onset {
 
-// Pairs of one kind, with vertices v, f0, f1, f2 or a0, a1, b0, b1. Lengths are model lengths, or scaled: in
-// units of the pair.
+// Pairs of one kind, with vertices v, f0, f1, f2 or a0, a1, b0, b1. Lengths are model lengths, unless they
+// are scaled: in units of the pair.
 struct KernelPairs {
   // Rows of kMotionStride doubles a vertex.
   const double* x;
@@ -25,7 +25,7 @@ struct KernelPairs {
   double reach;
   // Beyond d a pair keeps this share, in [0, 1), of its initial gap and, where storing > 0, kStoredRoundings
   // times (storing * its largest coordinate + kStoredLeast), but never more than half of what the share
-  // leaves. Without room for it, or with a gap not known well, it is `initial`.
+  // leaves. A pair without room for it, or whose gap is not known well, is `initial`.
   double gap_share, storing;
   // kStoredRoundings times that bound for all pairs, for the culls; 0 where storing is 0.
   double cull_beyond;
@@ -57,7 +57,7 @@ enum class Verdict : int {
 struct KernelResult {
   // The pair is certified apart on [0, t].
   double t;
-  // A bound of the distance at t, the tolerance used, and d with what gap_share and storing add.
+  // An upper bound of the distance at t, the tolerance used, and d with what gap_share and storing add.
   double distance;
   double delta;
   double separation;

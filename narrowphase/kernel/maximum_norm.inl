@@ -1,8 +1,8 @@
 // Kernel text: the closest point and the best direction in the maximum norm.
 //
-// A direction w shows a distance of min_k w.c_k / |w|_1; an axis, the hull's normal, or an edge crossed with
-// an axis shows all of it (docs/theory.md, L8). The closest point is where a diagonal meets the plane, or an
-// end of a side, or where one component is zero or two are equal up to sign.
+// The direction is an axis, the hull's normal, or an edge crossed with an axis (docs/theory.md, L8). The
+// closest point is where a diagonal meets the plane, or an end of a side, or where one component is zero or
+// two are equal up to sign.
 
 // Keeps w, in the better sign, if its margin is the largest so far.
 template <class V, int K>
