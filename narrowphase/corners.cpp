@@ -6,8 +6,7 @@
 namespace onset {
 namespace {
 
-// The power of two that brings x into [1, 2); for x = 0 or subnormal the largest one in range (the kernels'
-// rule).
+// Returns the power that brings x into [1, 2); 0 and subnormal numbers get the largest, as in the kernels.
 double inverse_power_of_two(double x) {
   const int exponent = x < 0x1p-1022 ? -1023 : std::ilogb(x);
   return std::ldexp(1.0, -exponent);

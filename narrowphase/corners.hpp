@@ -5,18 +5,18 @@
 
 namespace onset {
 
-// Vertex-face: corner j = p - v_j, count 3. Edge-edge: corner 2i + j = a_i - b_j, count 4.
-// c[end][corner][axis], the largest component in [1, 2): c holds (model length) / unit.
+// Corners j = p - v_j (vertex-face) or 2i + j = a_i - b_j (edge-edge) as c[end][corner][axis], in units of
+// `unit`, the largest component in [1, 2).
 struct Corners {
   int count = 0;
   double c[2][4][3] = {};
-  // The pair's edges, scaled alike, one rounding each: e[end][i]; edge-edge a, b; vertex-face v0 v1, v1 v2,
-  // v2 v0.
+  // The edges e[end][i] in the same units, one rounding each: a, b or v0 v1, v1 v2, v2 v0.
   double e[2][3][3] = {};
   double unit = 1;
-  double rho = 0;  // upper bound of the Euclidean norm of the per-axis largest magnitudes
+  // An upper bound of the Euclidean norm of the largest magnitudes by axis.
+  double rho = 0;
 
-  // Corner k at time t, exact at both ends; error at most 3u rho beyond the corners' own u rho.
+  // Computes the corners at t within 3u rho beyond their own u rho; exact at both ends.
   void at(double t, double (&out)[4][3]) const;
 };
 

@@ -1,5 +1,4 @@
-// The narrow phase asks exact arithmetic, or looks for a witness, whether a pair that is not certified free
-// is a contact.
+// Whether a pair that is not certified free is a contact, by exact arithmetic or a witness.
 #include <algorithm>
 
 #include "narrowphase/pair_decision.hpp"
@@ -15,8 +14,8 @@ bool PairDecision::decides_completely() const {
 
 ExactPair PairDecision::exact_pair_of_this() const { return exact_pair(asked_.kind, in_.motion, vertices()); }
 
-// unknown: not asked, or too dear. Contacts before `from` > 0 do not count. Within rounding of touching at the
-// start, doubles cannot tell a contact soon after from parting: those are asked whatever the certainty.
+// Returns `unknown` where integers are not asked or too dear. Contacts before `from` > 0 do not count. Near
+// touching at the start doubles cannot tell a contact soon after from parting: there they are always asked.
 ExactAnswer PairDecision::decide_exactly(const KernelResult& found, double from) const {
   if (found.verdict == Verdict::initial && from == 0 && separation() == 0) {
     const auto time = exact_first_contact(exact_pair_of_this());
@@ -43,7 +42,6 @@ ExactAnswer PairDecision::decide_exactly(const KernelResult& found, double from)
   return {Answer::yes, *exact_first_contact(pair)};
 }
 
-// Both primitives where they start.
 bool PairDecision::touches_at_start() const {
   ExactPair pair = exact_pair_of_this();
   std::copy_n(pair.t0, 4, pair.t1);
@@ -60,13 +58,13 @@ void PairDecision::sharpen(PairResult& result) const {
   result.toi = result.step_limit = time->lo;
 }
 
-// Corners move by at most 2 rho in the whole step, so far apart is a pair that has touched by time.hi.
+// Corners move by at most 2 rho in the whole step, which bounds the distance of a pair that touches by
+// time.hi.
 double PairDecision::distance_before_touching(const DoubleBracket& time) const {
   return std::min(distance_at(time.lo), 2 * corners().rho * (time.hi - time.lo) * (1 + 0x1p-40) + 0x1p-1074);
 }
 
-// Whether a point of each primitive is known, at a time from found.t on, that are no farther apart than the
-// separation.
+// Tells whether a look from found.t on shows points within the separation.
 bool PairDecision::seen_within_separation(const KernelResult& found) const {
   if (in_.options.exactness != Exactness::exact) return false;
   const double d = pairs_.separation[asked_.row] / found.unit;

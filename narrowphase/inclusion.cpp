@@ -11,12 +11,10 @@ namespace {
 constexpr double kEta = 0x1p-1074;
 
 // A part of the domain with F at its corners. Edge-edge: a box of (t, u, v), corner 4 it + 2 iu + iv.
-// Vertex-face: an interval of t times a part of the triangle, corner 3 it + j; the triangle itself is
-// bisected, so no corner leaves the prism.
+// Vertex-face: an interval of t times a part of the triangle, corner 3 it + j.
 //
-// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two corners (eq.
-// 6's domain halving without re-evaluation). Running bound: |m^ - m| <= (e + e)/2 + u |m^| + eta/2, per axis;
-// the factor pays for evaluating it in floating point.
+// F is affine in each of t, u, v (and on a triangle), so a midpoint corner is the mean of two (paper, eq. 6).
+// The running bound per axis is |m^ - m| <= (e + e)/2 + u |m^| + eta/2 (docs/theory.md, L20).
 struct Box {
   double f[8][3];
   double error[3];
@@ -56,8 +54,7 @@ class Search {
         root.f[k][a] = begin[k][a];
         root.f[per_end_ + k][a] = in_.corners.c[1][k][a];
       }
-    // A corner at t_begin errs by u (difference) + 3u (lerp) of the largest magnitude; 4.25 covers second
-    // order.
+    // A corner at t_begin carries 4 roundings; 4.25 covers second order.
     for (int a = 0; a < 3; ++a)
       root.error[a] = 4.25 * kU * largest(root, a) * (1 + 0x1p-50) + kEta + corner_floor(a);
     root.t0 = in_.t_begin;
@@ -67,7 +64,7 @@ class Search {
     return boxes_.back();
   }
 
-  // The lerp at t_begin may cancel: its error is relative to the ends, not to its value.
+  // The lerp at t_begin may cancel: its error is relative to the ends.
   double corner_floor(int a) const {
     double m = 0;
     for (const auto& end : in_.corners.c)
@@ -83,15 +80,15 @@ class Search {
 
   std::size_t boxes_in_use() const { return boxes_.size() - free_.size(); }
 
-  // Largest change of F (L-infinity) between corners i and j.
+  // The largest change of F on an axis.
   static double change(const Box& b, int i, int j) {
     double m = 0;
     for (int a = 0; a < 3; ++a) m = std::max(m, std::fabs(b.f[i][a] - b.f[j][a]));
     return m;
   }
 
-  // The box of F's corners, grown by the error, misses the ball (or cube) of radius d: rejected. Paper,
-  // line 9.
+  // Tells whether the box of F's corners, grown by the error, misses the ball (or cube) of radius d (paper,
+  // line 9; docs/theory.md, L21).
   bool separated(const Box& b) const {
     const double d = in_.separation;
     double squares = 0;
@@ -102,13 +99,13 @@ class Search {
       if (gap > d) return true;
       if (gap > 0) squares += gap * gap;
     }
-    // Euclidean: the sum of squares and its root err by less than 4u relative.
+    // The sum of squares and its root err by less than 4u.
     if (!in_.maximum_norm && std::sqrt(squares) * (1 - 0x1p-49) > d) return true;
     return separated_along_axes(b);
   }
 
-  // Any direction n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too: the pair's normal, and
-  // the mean of the corners. A product n.f errs by the corners' errors plus 3u sum |n_a| |f_a|.
+  // Any n with n.F > d |n| at all corners (|n|_1 for the cube) rejects too; this tries the pair's normal and
+  // the mean of the corners.
   bool separated_along_axes(const Box& b) const {
     double u[3], v[3], n[3], mean[3] = {};
     const int k = per_end_;
@@ -127,7 +124,7 @@ class Search {
     const double size = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
     if (!(size > 0x1p-900)) return false;
     double lo = INFINITY, hi = -INFINITY, error = 0;
-    for (double& x : n) x /= size;  // any direction will do: its rounding does not matter
+    for (double& x : n) x /= size;  // any direction will do
     for (int a = 0; a < 3; ++a) error += std::fabs(n[a]) * (b.error[a] + 4 * kU * largest(b, a));
     for (int i = 0; i < 2 * per_end_; ++i) {
       const double p = (n[0] * b.f[i][0] + n[1] * b.f[i][1]) + n[2] * b.f[i][2];
@@ -139,8 +136,8 @@ class Search {
     return std::max(lo, -hi) > wanted;
   }
 
-  // Narrow enough that every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line
-  // 15), or too narrow to halve.
+  // Tells whether every point of the box is within sqrt(3) delta/2 < delta of one within d (paper, line 15;
+  // docs/theory.md, L22), or it is too narrow to halve.
   bool small(const Box& b) const {
     const double middle = 0.5 * (b.t0 + b.t1);
     const bool can_halve = b.t0 < middle && middle < b.t1;

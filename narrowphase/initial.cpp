@@ -33,7 +33,7 @@ bool same_at_both_ends(const Corners& corners) {
   return true;
 }
 
-// The plane of the pair at t = 0 (the face, or both edges' directions), and the exact side of it.
+// The plane of the face or both edges' directions at t = 0, and the pair's exact side of it.
 struct Side {
   Vec normal;
   int sign;  // of normal . c_k
@@ -48,14 +48,14 @@ Side side_at_start(const InitialCase& c) {
   const auto edge = [&](int i) { return vec(q.e[0][i]); };
   const double* p[4];
   for (int i = 0; i < 4; ++i) p[i] = c.pairs.x + std::ptrdiff_t(c.pairs.vertices[c.row][i]) * kMotionStride;
-  // vertex-face: (v1 - v0) x (v2 - v1) . (p - v0), edge-edge: (a1 - a0) x (b1 - b0) . (a0 - b0).
+  // Vertex-face: (v1 - v0) x (v2 - v1) . (p - v0), edge-edge: (a1 - a0) x (b1 - b0) . (a0 - b0).
   const int sign = c.kind == PairKind::vertex_face ? orientation(p[2], p[3], p[0], p[1])
                                                    : orientation(p[1], p[2], p[3], p[0]);
   return {unit(cross(edge(0), edge(1))), sign};
 }
 
-// A direction n with n.c >= -noise at both times, strictly positive at the second; the mean of the feasible
-// extreme rays of that cone. Zero where there is none.
+// Returns a direction n with n.c >= -noise at both times and > 0 at the second, the mean of that cone's
+// extreme rays; 0 where there is none.
 Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, double noise) {
   Vec p[8];
   int count = 0;
@@ -81,8 +81,7 @@ Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, doubl
   return unit(total);
 }
 
-// The latest time from t on, by halving, until which the pair parts along a direction chosen for it; t if
-// there is none.
+// Returns the latest time found until which the pair parts along a direction chosen for it; t for none.
 template <class Parts>
 double latest(double t, Parts&& parts) {
   double length = 1 - t;
@@ -97,7 +96,8 @@ double latest(double t, Parts&& parts) {
 
 namespace {
 
-// A pair within noise of touching: parts along a direction that divides it, and never touches before, exactly.
+// Parts a pair within noise of touching along a direction that divides it, if it never touches before,
+// exactly.
 double part_from_noise(const InitialCase& c, const Hull& here, double noise, Vec& n) {
   const Side side = side_at_start(c);
   const double reached = latest(0, [&](double tb) {
@@ -134,6 +134,8 @@ Parting find_parting(const InitialCase& c) {
     }
     if (reached == r.t) return r;
     r.t = reached;
+    // This takes off 8u rho where up to 15u rho is due, and in the maximum norm does not divide by |n|_1:
+    // that is harmless, as later certificates prove everything again.
     r.excess = Hull(c.corners, r.t).least(n) - 8 * kU * c.corners.rho - c.separation;
     r.apart = r.excess > 0;
     if (r.apart) return r;

@@ -1,5 +1,5 @@
-// Pairs that touch, or are closer than the separation, at t = 0: does the motion press them together or part
-// them?
+// Pairs that touch, or are closer than the separation, at t = 0: does the motion part them (docs/theory.md,
+// §17.1)?
 #pragma once
 
 #include <functional>
@@ -16,24 +16,27 @@ struct InitialCase {
   const KernelPairs& pairs;
   int row;  // the pair, in `pairs`
   PairKind kind;
-  double separation;                            // d, scaled as the corners
-  const std::function<Vec(double)>& direction;  // unit, that separates the pair best at a time
-  const ExactPair* exact;                       // null: the pair may touch as it parts
+  double separation;  // d, scaled as the corners
+  // Returns the unit direction that separates the pair best at a time.
+  const std::function<Vec(double)>& direction;
+  // Null: the pair may touch as it parts.
+  const ExactPair* exact;
 };
 
-// Until `t` the pair never comes closer than it is at t = 0, up to the rounding of two products, 10u rho; nothing is
-// known after it. apart: at t it is farther apart than d, by `excess`, so advancement can go on from there.
+// Until `t` the pair comes no closer than 184u rho below its distance at t = 0, or 120u rho below the
+// certified lower bound of that (Euclidean norm; the maximum norm can lose 70u rho a round; docs/theory.md,
+// (17.1)). apart: at t it is beyond d by `excess`, so advancement can go on from there.
 struct Parting {
   double t = 0;
   bool apart = false;
   double excess = 0;
 };
 
-// Closer than d but not touching: along the closest direction w the least product with a corner is a concave
-// function of time and a lower bound of the distance; where it is no less at some later time than at the start, it was
-// no less between. So close that this is noise, or touching: a direction n that has the whole pair on its positive side
-// at 0 (up to rounding) and strictly so at t keeps it there in between; the side itself is decided exactly, and so is that
-// the pair does not touch before t. Motion that stays in touch is pressing, unless nothing moves at all.
+// Decides whether the motion parts the pair. Along the closest direction the least product with a corner is
+// concave in time and a lower bound of the distance: where it is no less later, it was no less in between.
+// Where it is noise, a direction must have the whole pair on its positive side, at 0 up to rounding and
+// strictly at t; the side, and that the pair does not touch before t, are decided exactly. Motion that stays
+// in touch is pressing, unless nothing moves.
 Parting find_parting(const InitialCase& c);
 
 }  // namespace onset

@@ -23,15 +23,15 @@ double dual_norm(Vec m, bool maximum_norm) {
 // An edge and the two classes of corners modulo it.
 struct EdgeView {
   int edge;
-  int first[2], second[2];  // corners that differ by the edge; equal where the class has one
+  int first[2], second[2];  // corners that differ by the edge; equal where there is one
 };
 constexpr EdgeView kEdgeEdge[] = {{0, {0, 2}, {1, 3}}, {1, {0, 1}, {2, 3}}};
 constexpr EdgeView kVertexFace[] = {{0, {0, 1}, {2, 2}}, {1, {1, 2}, {0, 0}}, {2, {2, 0}, {1, 1}}};
 
 constexpr int kPoints = 6;
 
-// The direction with the largest smallest cosine to all points: the centre of their smallest cap, found by
-// trying the bisector of every pair and the centre of every triple. Any direction is safe to use.
+// Returns the direction with the largest smallest cosine to all points, by trying all bisectors and centres
+// of triples. Any is safe.
 Vec centre_of_cap(const Vec (&points)[kPoints]) {
   Vec direction[kPoints];
   for (int i = 0; i < kPoints; ++i) {
@@ -79,7 +79,7 @@ class Interval {
   Vec corner(int k, int end) const { return vec(corners_.c[end][k]); }
   Vec edge(int i, int end) const { return vec(corners_.e[end][i]); }
 
-  // Of a class's two corners, the one that stays nearer: its products carry the smaller error.
+  // Returns the corner that stays nearer: its products carry the smaller error.
   int nearer(const int (&members)[2]) const {
     const auto size = [&](int k) {
       const Vec r = largest(corner(k, 0), corner(k, 1));
@@ -101,12 +101,12 @@ class Interval {
       points[3 * i + 2] = cross(eb, cb);
     }
     const Vec m = centre_of_cap(points);
-    // Separation: |w(s)| <= |m| |e(s)|, and |m x e|_1 <= 2 |m|_2 |e|_2 for the dual of the maximum norm.
+    // |w(s)| <= |m| |e(s)|, and |m x e|_1 <= 2 |m|_2 |e|_2 for the dual of the maximum norm.
     const double reach = std::sqrt(std::max(dot(ea, ea), dot(eb, eb))) * (1 + 0x1p-48);
     const double separation = wanted_ * dual_norm(m, false) * reach * (maximum_norm_ ? 2 : 1);
     for (int i = 0; i < 2; ++i) {
-      // In units of u sum |m_a| P_a: e and c 4 each at ta (difference 1, lerp 3), product 1, difference 1,
-      // mean 1, dot 3: 14.
+      // In units of u sum |m_a| P_a a product carries 14 roundings; 16 covers second order (docs/theory.md,
+      // L19).
       const Vec r = largest(corner(member[i], 0), corner(member[i], 1));
       double error = 0;
       for (int a = 0; a < 3; ++a) {

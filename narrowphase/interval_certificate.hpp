@@ -1,17 +1,16 @@
-// Certificates for a whole interval of time when advancement crawls: features that nearly coincide and turn
-// together.
+// Certificates for an interval of time, for features that nearly coincide and turn together.
 #pragma once
 
 #include "narrowphase/corners.hpp"
 
 namespace onset {
 
-// The latest time certified from `t` on: the pair is farther apart than `wanted` (scaled as the corners) on
-// [t, result]. Equal to t when nothing is certified. Tries [t, 1] and shorter intervals.
+// Returns the latest time until which the pair is certified from `t` on, at a distance of more than wanted -
+// 8 u rho (maximum norm: `wanted`, if that is 30 u rho or more); `t` for none. For wanted = d + delta/2 it is
+// beyond d, since delta/2 >= 58 u rho (docs/theory.md, L19).
 //
-// A direction that stays perpendicular to an edge through the interval, w(s) = m x e(s) with m constant, sees
-// the gap at full relative accuracy however the edge turns. w(s).c(s) = m.(e(s) x c(s)), a quadratic in s,
-// the same for the two corners that differ by e: two vector quadratics in all.
+// A direction w(s) = m x e(s), m constant, stays perpendicular to an edge e, so it sees the gap at full
+// relative accuracy; w(s).c(s) = m.(e(s) x c(s)) is the same for corners that differ by e.
 double certify_interval(const Corners& corners, double t, double wanted, bool maximum_norm);
 
 }  // namespace onset

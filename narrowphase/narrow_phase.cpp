@@ -13,8 +13,7 @@
 namespace onset {
 namespace {
 
-// With fewer checks than this a pair may be reported far from contact, and t_max could hide it: then it
-// is not used.
+// With fewer checks a pair may be reported far from contact, where t_max could hide it.
 constexpr std::int64_t kChecksForTMax = 1000;
 
 double power_of_two_near_one_over(double x) {
@@ -58,8 +57,8 @@ NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
   if (input.for_many) rounded_ = round_positions(input.motion, scale_);
 }
 
-// Advancement stops within max(tolerance, 16 E7), E7 = 7.25u rho with rho <= sqrt(3) extent: 201u extent; the
-// inclusion root finder within that and its corners' errors.
+// 2^-45 extent covers 16 E7 <= 201u extent (docs/theory.md, L18), and the inclusion root finder's errors
+// (L22).
 double reported_within(double tolerance, double extent) {
   return std::max(tolerance, 0x1p-45 * extent + 0x1p-1070) * (1 + 0x1p-40);
 }
@@ -90,8 +89,8 @@ void NarrowPhase::gather(PairKind kind, const IdPair* pairs, std::size_t count,
 KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                                  NarrowPhaseScratch& scratch) const {
   gather(kind, pairs, count, scratch);
-  // The inclusion root finder takes over after one check, which finds the pairs that start within d and the
-  // tolerance to use.
+  // The inclusion root finder takes over after one check, which fixes the tolerance and finds pairs that
+  // start within d.
   const bool inclusion_only = in_.inclusion_only();
   return {in_.motion.x.data(),
           rounded_.data(),
@@ -157,8 +156,8 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
   }
 }
 
-// What the exact motion says of the pairs that `results` are of, too: within the tolerance the two can differ. A pair that is free after
-// its first check is so with a smaller demand from the same look.
+// Asks the exact motion, too, which can differ within the tolerance. A pair that is free after its first
+// check is so with a smaller demand from the same look.
 void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const {
   scratch.touches.assign(std::size_t(survivors), 0);
   scratch.asked.clear();

@@ -1,5 +1,4 @@
-// Candidate pairs in, time of impact out: culls, advancement, and the inclusion root finder for what they
-// leave undecided.
+// Candidate pairs in, times of impact out.
 #pragma once
 
 #include <array>
@@ -24,35 +23,43 @@ struct NarrowPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
   double tolerance;  // model length, > 0
-  double extent;     // the largest corner difference in the scene, about
+  double extent;     // about the largest corner in the scene
   const Options& options;
-  bool exact_times = false;  // Exactness::exact: toi and toi_hi of every contact are adjacent doubles
-  bool for_many = false;     // pairs: worth a pass over all vertices first
-  // Steps whose end is stored in doubles: results have a stored_limit. `gap_share`: share of each pair's initial gap beyond its
-  // separation that it must keep as well, in [0, 1). `rounding`: rounding_of_distances(motion).
+  // At Exactness::exact toi and toi_hi of every contact are adjacent doubles.
+  bool exact_times = false;
+  // There are enough pairs for a pass over all vertices first.
+  bool for_many = false;
+  // The step's end is stored: results have a stored_limit, and each pair keeps `gap_share`, in [0, 1), of its
+  // initial gap. `rounding` is rounding_of_distances(motion).
   bool stored = false;
   double gap_share = 0, rounding = 0;
-  const PairPredicate* contacts = nullptr;  // others have no toi; null: all may have
+  // Other pairs have no toi; null: all may have one.
+  const PairPredicate* contacts = nullptr;
 
   bool times_are_exact() const { return exact_times && options.exactness == Exactness::exact; }
   bool inclusion_only() const { return options.narrow_phase == NarrowPhaseMethod::inclusion; }
 };
 
-// Model length: a pair that has not spent its checks is reported no farther beyond what it must keep.
+// Returns how far beyond what it must keep a pair may be reported, model length, unless its checks are spent.
 double reported_within(double tolerance, double extent);
 
 // A pair that is not certified free.
 struct PairResult {
   IdPair pair;
-  double toi;         // certified apart on [0, toi) (initial outcomes: 0); infinite where only stored_limit is not
-  double step_limit;  // how far this pair lets the exact motion go: toi; for initial_separating the next contact,
-                      // infinite if none
-  double tolerance;   // distance beyond the separation at which it was reported, model length
+  // Certified apart on [0, toi); 0 for initial outcomes, infinite where only stored_limit is not.
+  double toi;
+  // How far it lets the exact motion go: toi, or for initial_separating the next contact, infinite if there
+  // is none.
+  double step_limit;
+  // Distance beyond the separation at which it was reported, model length.
+  double tolerance;
   PairOutcome outcome;
   Certainty certainty = Certainty::within_tolerance;
-  double toi_hi = INFINITY;                                 // where certain: touches by then
-  Certainty limit_certainty = Certainty::within_tolerance;  // of the contact at step_limit
-  // Where the end of a step is stored: it may be 0, or anything in [clear_from, stored_limit].
+  // Where certain: the pair touches by then.
+  double toi_hi = INFINITY;
+  // The certainty of the contact at step_limit.
+  Certainty limit_certainty = Certainty::within_tolerance;
+  // A step whose end is stored may be 0, or anything in [clear_from, stored_limit].
   double stored_limit = INFINITY, clear_from = 0;
 };
 
@@ -60,10 +67,10 @@ struct NarrowPhaseStats {
   std::int64_t candidates = 0, after_culls = 0, inclusion = 0, contacts = 0, gave_up = 0, checks = 0,
                most_checks = 0;
   IdPair worst{-1, -1};                      // the first pair with most_checks
-  std::array<std::int64_t, 16> histogram{};  // of checks: Stats::checks_histogram
+  std::array<std::int64_t, 16> histogram{};  // of checks
   double achieved_tolerance = 0;
-  // The least share of its gap that a pair is sure to keep once it is stored, and the pair; 0 where its step is 0. 1 where
-  // all keep what was asked for.
+  // The least share of its gap that a pair is sure to keep once stored: 0 where its step is 0, 1 where all
+  // keep what was asked for.
   double least_share = 1;
   IdPair closest{-1, -1};
   void add(const NarrowPhaseStats& other);
@@ -76,7 +83,8 @@ struct NarrowPhaseScratch {
   std::vector<int> vertices, survivors;  // 4 ids a pair
   std::vector<double> separation;
   std::vector<KernelResult> results;
-  // Where steps are stored: rows that the exact motion is asked about, their places among the results, and whether they touch.
+  // Where steps are stored: the rows that the exact motion is asked about, their places, and whether they
+  // touch.
   std::vector<KernelResult> exact_results;
   std::vector<int> asked, places;
   std::vector<char> touches;
@@ -87,21 +95,18 @@ class NarrowPhase {
  public:
   explicit NarrowPhase(const NarrowPhaseInput& input);
 
-  // Pairs certified apart beyond these may be left out, by the culls and by advancement; the rest have the same
-  // results whatever they are.
+  // Pairs certified apart beyond these may be left out; no other result depends on them.
   struct TMax {
     double culls = 1, advancement = 1;
   };
-  // Appends the pairs of the batch that are not free (in the batch's order); how many of these are contacts,
-  // and their outcomes, is for the caller to count: it may drop some.
+  // Appends the pairs that are not free, in the batch's order; callers count contacts, as they may drop some.
   void process(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max, NarrowPhaseScratch& scratch,
                std::vector<PairResult>& out) const;
-  // Appends the pairs of the batch that the culls cannot certify as free.
+  // Appends the pairs that the culls leave.
   void cull(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch,
             std::vector<IdPair>& out) const;
   bool uses_t_max() const;
-  // Gives a contact of this pair, found at Exactness::exact, its exact time: adjacent doubles toi and
-  // toi_hi.
+  // Gives a contact found at Exactness::exact its exact time: adjacent doubles toi and toi_hi.
   void sharpen(PairKind kind, PairResult& result) const;
   bool times_are_exact() const { return in_.times_are_exact(); }
   const char* to_string() const { return kernels_->name; }

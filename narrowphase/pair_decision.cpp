@@ -54,8 +54,8 @@ std::optional<PairResult> PairDecision::contact(const KernelResult& checked, dou
   return contact_at_start(found.separation > 0 ? start : bounds_at(0), found, exact);
 }
 
-// A pair that crawls: certify an interval and go on, or go on regardless for a while. Real contacts of
-// degenerate pairs converge slowly but steadily; what neither finishes is left for the inclusion root finder.
+// Certifies intervals, or goes on regardless for a while, as contacts of degenerate pairs converge slowly but
+// steadily. What neither finishes is left for the inclusion root finder.
 KernelResult PairDecision::push_on(KernelResult r) const {
   constexpr double kPatience = 200;
   const double wanted = (r.separation + 0.5 * r.delta) * (1 + 0x1p-49);
@@ -111,8 +111,7 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
       real && exact.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
   if (later) found.t = exact.time.lo;
   ONSET_ASSERT(found.t >= 0 && found.t <= 1);
-  // These moved on after their last look; where the inclusion root finder did, it has a bound of its own,
-  // which is the sharper one for slivers.
+  // These moved on after their last look. The inclusion root finder's own bound is sharper for slivers.
   if (later)
     found.distance = distance_before_touching(exact.time);
   else if (found.verdict != Verdict::contact || found.checks <= 1)
@@ -125,8 +124,9 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
   return r;
 }
 
-// Touching or closer than d at the start. From which side a pair came that touches is not known: it blocks the step, unless
-// the caller says otherwise. Where the motion parts the others the step goes on, to the next contact if there is one.
+// Reports a pair that touches or is closer than d at the start. The side that a touching one came from is not
+// known: it blocks the step, unless the caller says otherwise. Where the motion parts others, the step goes
+// on to the next contact.
 PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResult& found, const ExactAnswer& exact) {
   const double d = found.separation;
   PairResult r{asked_.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
@@ -148,8 +148,7 @@ PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResul
   return r;
 }
 
-// A second decision: of the rest of the motion, from where the pair is apart. What is reported at 0 is reported with its
-// step_limit, whatever t_max is.
+// Decides the rest of the motion. What is reported at 0 has its step_limit whatever t_max is.
 void PairDecision::add_contact_after_parting(const KernelResult& found, const Parting& parting, PairResult& r) {
   const double floor = kLeastTolerance * corners().rho;  // as at a start that is apart
   KernelResult later = found;

@@ -1,4 +1,4 @@
-// One pair that advancement did not certify as free: is it a contact, when, and how far does it let a step go?
+// One pair that is not certified free: is it a contact, when, and how far does it let a step go?
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace onset {
 
-// Advancement converges so fast that stopping at a sixteenth of the tolerance costs about one check, and most
-// pairs that pass within the tolerance without touching are then told apart.
+// Share of the tolerance: to look so sharply costs about one check more, and tells most pairs that pass
+// within the tolerance from contacts.
 constexpr double kSharpness = 0.0625;
-// Nor is more given away than this share of the pair's size: hand-made near misses have gaps of 1e-11 of it.
+// Share of the pair's size that is given away at most: hand-made near misses have gaps of 1e-11 of it.
 constexpr double kSharpest = 0x1p-38;
 
-// 16 E7, of rho: advancement tells no less.
+// 16 E7, of rho: advancement tells no less (docs/theory.md, (9.2)).
 constexpr double kLeastTolerance = 116 * 0x1p-53;
 
 // Of rho: a certificate of a start sees no smaller gap.
 constexpr double kStartNoise = 16 * 0x1p-53;
 
-// Of the exact motion.
+// Returns the same pairs, asked of the exact motion only.
 KernelPairs without_storing(KernelPairs pairs, double t_max);
 
-// What is asked: row `row` of a batch of one kind.
+// Row `row` of a batch of one kind.
 struct PairQuestion {
   const NarrowPhaseInput& in;
   const KernelsOfKind& kernels;
@@ -41,24 +41,19 @@ class PairDecision {
   PairDecision(const PairQuestion& question, NarrowPhaseStats& stats)
       : in_(question.in), kernels_(question.kernels), pairs_(question.pairs), asked_(question), stats_(stats) {}
 
-  // The contact of the exact motion, none where it is free. Advancement left the pair as `checked`; it is apart, or
-  // parting, until `from`. The stages, each of which may end it:
-  //   1. exact first, where advancement stalled: that takes less than to find out in doubles (decide_exactly.cpp);
-  //   2. push on with certificates for intervals of time;
-  //   3. search by inclusion;
-  //   4. prove: by the certificate of a contact, then in integers (decide_exactly.cpp);
-  //   5. report: when, how far the pair lets a step go, how certain, at which distance.
+  // Finds the contact of the exact motion. Advancement left the pair as `checked`, apart or parting until
+  // `from`. The stages, each of which may end it, are exact first, push on, search, prove, report
+  // (docs/architecture.md, "A pair's way").
   std::optional<PairResult> contact(const KernelResult& checked, double from = 0);
 
-  // How far the pair lets a step go whose end is stored, with the contact of its exact motion (stored_step.cpp).
+  // Finds how far the pair lets a stored step go, and the contact of its exact motion.
   std::optional<PairResult> stored_step(const KernelResult& checked);
 
-  // Gives a contact of this pair, found at Exactness::exact, its exact time: adjacent doubles toi and toi_hi.
+  // Gives a contact found at Exactness::exact its exact time: adjacent doubles toi and toi_hi.
   void sharpen(PairResult& result) const;
 
  private:
-  // The pair's distance at one time, scaled as its corners are: between `lower` and `upper`; w: a direction of length 1
-  // along which every corner is beyond about `lower`.
+  // The scaled distance is in [lower, upper]; along w, of length 1, all corners are beyond about `lower`.
   struct Bounds {
     double lower, upper;
     Vec w;
@@ -72,7 +67,7 @@ class PairDecision {
 
   KernelResult push_on(KernelResult r) const;
   KernelResult search(KernelResult found);
-  // Stages 2 and 3. `searched`: the bound of the distance is that of the inclusion root finder.
+  // Pushes on and searches. `searched`: the inclusion root finder bounds the distance.
   KernelResult carry_on(const KernelResult& checked, bool& searched);
   PairResult report(KernelResult found, const ExactAnswer& exact, double from, bool searched) const;
   PairResult contact_at_start(const Bounds& start, const KernelResult& found, const ExactAnswer& exact);

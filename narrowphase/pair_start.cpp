@@ -17,8 +17,8 @@ double least(const Corners& corners, double t, const Vec& w) {
   return r;
 }
 
-// The time until which w, held fixed, certifies that the pair stays beyond `wanted` from t on; t where it does not, 2 for the whole
-// rest. As fixed_certificate in the kernels: the line between the products at both ends is off by 4.25u rho, a root by 16u.
+// Returns the time until which w, held fixed, certifies the pair beyond `wanted` from t on; t for none, 2 for
+// the whole rest (docs/theory.md, L9).
 double certified_until(const Corners& corners, const Vec& w, double norm, double wanted, double t) {
   const double bound = 4.25 * kU * corners.rho + wanted * norm * (1 + 0x1p-49);
   double until = 2;
@@ -45,7 +45,7 @@ PairDecision::Bounds PairDecision::bounds_at(double t) const {
     r.w = best_direction_in_maximum_norm(PreciseMotion(asked_.kind, pair.t0, pair.t1).at(t));
     const double size = sum_of_magnitudes(r.w);
     r.lower = size > 0 ? (least(corners(), t, r.w) - 8 * kU * corners().rho) / size * (1 - 0x1p-49) : 0;
-    // The best direction shows all of the distance (duality): the bound is off by its own rounding and that of w.
+    // The best direction shows all of the distance but rounding: 40u rho is proved (docs/theory.md, L44).
     r.upper = r.lower > 0 ? r.lower + 32 * kU * corners().rho : distance_at(t);
     return r;
   }
@@ -65,8 +65,8 @@ Parting PairDecision::find_parting_of(const Bounds& start, double separation, bo
   return find_parting({corners(), pairs_, asked_.row, asked_.kind, separation, direction, touching ? nullptr : &exact});
 }
 
-// Goes on at time t, where the pair is apart by more than d + kept as `at` shows. Where the full demand certifies nothing, d +
-// kept alone does: never a zero from a start that is apart.
+// Goes on at t, where `at` shows the pair beyond d + kept. Where the full demand certifies nothing, d + kept
+// alone does: a start that is apart never gets 0 (docs/theory.md, T9).
 KernelResult PairDecision::advance_from(const Bounds& at, double t, double kept) const {
   const double e7 = 7.25 * kU * corners().rho, unit = corners().unit, d = separation() / unit + kept;
   const double apart = at.lower - d;

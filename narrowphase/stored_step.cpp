@@ -1,9 +1,8 @@
-// How far a pair lets a step go whose end is stored in doubles.
+// How far a pair lets a step go whose end is stored in doubles (docs/theory.md, §18).
 //
-// Rounding in any order changes a stored distance by at most a bound R of its own coordinates (rounding_of_distances). So a step may
-// end where the pair is beyond d + R, after an exact motion that keeps beyond d. Most pairs start with room for that and keep it on
-// the whole way: they limit the step by a time. A pair whose gap is smaller may only end the step once it has cleared R: at 0, or
-// from a time on.
+// Storing changes a distance by at most a bound R of the pair's coordinates, so a step may end where the pair
+// is beyond d + R, after an exact motion beyond d. With room for that a pair limits the step by a time; else
+// the step may only end at 0, or from when R is cleared.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +14,8 @@
 namespace onset {
 
 struct PairDecision::StoredLimit {
-  double from = 0;  // a step may end at 0 or in [from, found.t]; anywhere from `from` on where the verdict is free
+  // A step may end at 0 or in [from, found.t], or anywhere from `from` on where the verdict is free.
+  double from = 0;
   KernelResult found{};
 };
 
@@ -27,7 +27,6 @@ double PairDecision::storing_rounding() const {
   return (pairs_.storing * largest + kStoredLeast) / corners().unit * (1 + 0x1p-50);
 }
 
-// Of these pairs_, from t = 0.
 std::optional<PairResult> PairDecision::from_scratch() {
   KernelPairs one = pairs_;
   one.vertices += asked_.row, one.separation += asked_.row, one.count = 1;
@@ -41,7 +40,7 @@ std::optional<PairResult> PairDecision::from_scratch() {
   return contact(r);
 }
 
-// The contact of the exact motion of this pair alone, as an active set decides it: what it says does not depend on t_max.
+// Finds the contact of the exact motion as an active set does, whatever t_max is.
 std::optional<PairResult> PairDecision::exact_motion() {
   if (in_.contacts != nullptr && !in_.contacts->holds(in_.contacts->context, asked_.kind, asked_.pair)) return std::nullopt;
   const KernelPairs plain = without_storing(pairs_, 1);
@@ -68,8 +67,7 @@ std::optional<PairResult> PairDecision::stored_step(const KernelResult& checked)
     contact = exact_motion();
   }
   KernelResult& found = limit.found;
-  // No contact, or a time of contact known exactly: then rounding alone limits the step, and the tolerance has no part in it.
-  // So it is not where a share of the gap is kept.
+  // Without a contact, or with its exact time, and with no share to keep, rounding alone limits the step.
   const bool sharper = in_.gap_share == 0 && (!contact || in_.times_are_exact());
   if (sharper && found.verdict == Verdict::contact && found.t > 0) {
     found.delta = kLeastTolerance * corners().rho;
@@ -94,7 +92,6 @@ std::optional<PairResult> PairDecision::stored_step(const KernelResult& checked)
   return r;
 }
 
-// Goes on at time t, where it is as `at` says, to the end of this limit.
 KernelResult PairDecision::limit_from(const Bounds& at, double t, double kept) {
   const KernelResult found = advance_from(at, t, kept);
   stats_.checks += found.checks;
@@ -102,7 +99,7 @@ KernelResult PairDecision::limit_from(const Bounds& at, double t, double kept) {
   return carry_on(found, searched);
 }
 
-// The first of some times from which on the pair is beyond `wanted`; infinite where it is at none of them.
+// Returns the first of some times at which the pair is beyond `wanted`; infinite for none.
 double PairDecision::clear_time(double wanted) const {
   for (double t = 0x1p-52; t <= 1; t *= 16)
     if (bounds_at(t).lower > wanted) return t;
@@ -133,7 +130,8 @@ PairDecision::StoredLimit PairDecision::limit_from_start(std::optional<PairResul
   return limit_of_small_gap(contact);
 }
 
-// Beyond d at the start by less than storing can close: the step may end where the pair is clear of that.
+// Limits a pair that is beyond d at the start by less than storing can close: the step may end where it is
+// clear of that.
 PairDecision::StoredLimit PairDecision::limit_of_small_gap(const std::optional<PairResult>& contact) {
   const double d = separation() / corners().unit, kept = storing_rounding() * (1 + 0x1p-20);
   const double clear = clear_time(d + kept + 2 * kStartNoise * corners().rho);
@@ -146,8 +144,9 @@ PairDecision::StoredLimit PairDecision::limit_of_small_gap(const std::optional<P
   return {clear, limit_from(bounds_at(clear), clear, kept)};
 }
 
-// Within d at the start, and parting: its distance does not fall below what it is at the start, but for the noise of a look. Stored, it
-// must not touch: where that is close, the step may end once the pair is clear, and certified to be so until it has parted.
+// Limits a pair that is within d at the start and parts; its distance does not fall but for noise
+// (docs/theory.md, (17.1)). Stored, it must not touch: where that is close, the step may end once the pair is
+// clear, and certified so until it has parted.
 PairDecision::StoredLimit PairDecision::limit_after_parting(const Bounds& start) {
   const double rounding = storing_rounding() * (1 + 0x1p-20), d = separation() / corners().unit;
   const double noise = kStartNoise * corners().rho;

@@ -1,5 +1,4 @@
-// Three doubles (or double-doubles) with the few operations that scalar certificates need. Sums run in the
-// kernels' order.
+// Three doubles (or double-doubles). Sums run in the kernels' order.
 #pragma once
 
 #include "base/unit_roundoff.hpp"

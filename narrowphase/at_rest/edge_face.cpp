@@ -13,24 +13,18 @@ namespace {
 
 Vec point(const double* p) { return {{p[0], p[1], p[2]}}; }
 
-// The sign of a number within `bound` of x; 0: open, as where x or the bound is not finite.
+// Returns the sign of a number within `bound` of x; 0: open, also where one is not finite.
 int certain_sign(double x, double bound) {
   if (!(std::fabs(x) > bound && std::fabs(x) <= std::numeric_limits<double>::max())) return 0;
   return x > 0 ? 1 : -1;
 }
 
-// Bound on the error of fl((a x b).c), where each of a, b, c is a rounded difference of points and no
-// coordinate of theirs is larger than A, B, C. Relative to the exact terms |a_i b_j c_k| a product carries 8
-// roundings at most: three differences, three products and sums, two more sums. There are six, so the error
-// is below 6 ((1 + u)^8 - 1) (1 + u)^3 A B C < 49u A B C; 2^-46 leaves room for the rounding here. An inner
-// product that underflows adds 2^-1075, six of them times C 2^-1072 C; the outer ones add 2^-1073. Where
-// anything overflows, the result is not finite.
+// Bounds the error of fl((a x b).c), 49u A B C and underflow, for rounded differences a, b, c of points with
+// components up to A, B, C (docs/theory.md, §19). It is not finite where anything overflows.
 double volume_bound(double A, double B, double C) { return 0x1p-46 * ((A * B + 0x1p-1000) * C) + 0x1p-1070; }
 
-// Whether a plane of normal m (any doubles) has the points p all on one side and the points q on the other:
-// m.(p_i - q_j) > 0, or < 0, for all. Relative to |m_k (p - q)_k| a term carries 4 roundings: the error is
-// below 3 ((1 + u)^4 - 1) |m| |p - q| < 13u |m| |p - q| with the largest coordinates, and 3 2^-1075 where
-// products underflow.
+// Tells whether a plane of normal m, any doubles, has the points p on one side and q on the other. m.(p_i -
+// q_j) errs by 13u |m| |p - q| in the largest coordinates.
 bool separates(const Vec& m, const Vec* p, int p_count, const Vec* q, int q_count) {
   const double size = largest_component(m);
   int side = 0;
@@ -44,15 +38,13 @@ bool separates(const Vec& m, const Vec* p, int p_count, const Vec* q, int q_coun
   return true;
 }
 
-// What rounding leaves no doubt about.
 struct Quick {
   bool decided;
   EdgeFace answer;
 };
 constexpr Quick kOpen{false, EdgeFace::apart}, kApart{true, EdgeFace::apart};
 
-// The ends are on different sides of the plane: the line meets the face where it passes its three sides on
-// one side.
+// The ends are on different sides of the plane: the line meets the face iff it passes all sides on one side.
 Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   const Vec d = e[1] - e[0], r[3] = {f[0] - e[0], f[1] - e[0], f[2] - e[0]};
   const double R = std::max(std::max(largest_component(r[0]), largest_component(r[1])), largest_component(r[2]));
@@ -66,8 +58,7 @@ Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   return positive == 3 || negative == 3 ? Quick{true, EdgeFace::crossing} : kOpen;
 }
 
-// An edge close to the plane of the face: apart within it, beyond a side of the face or with the face beyond
-// its line.
+// Tells whether an edge is beyond a side of the face within its plane, or the face beyond its line.
 bool apart_in_plane(const Vec& n, const Vec (&e)[2], const Vec (&f)[3]) {
   for (int i = 0; i < 3; ++i)
     if (separates(cross(n, f[(i + 1) % 3] - f[i]), e, 2, f, 3)) return true;
@@ -88,7 +79,7 @@ Quick quick_answer(const EdgeAndFace& pair) {
 
 bool before(const double* p, const double* q) { return std::lexicographical_compare(p, p + 3, q, q + 3); }
 
-// Two segments on one line, along which points are in the order of their coordinates.
+// Along the line points are in the order of their coordinates.
 EdgeFace on_one_line(const double* e0, const double* e1, const double* first, const double* last) {
   if (before(e1, e0)) std::swap(e0, e1);
   const double *from = before(e0, first) ? first : e0, *to = before(last, e1) ? last : e1;
@@ -136,7 +127,7 @@ EdgeFace edge_face(const EdgeAndFace& pair) {
 
 bool exactly_collinear(const double* p, const double* q, const double* r) {
   const Vec a = point(q) - point(p), b = point(r) - point(p), n = cross(a, b);
-  // Relative to the exact terms |a_i b_j| a product carries 4 roundings, and underflow adds 2^-1075 to each.
+  // A component errs by 8u |a| |b| in the largest coordinates.
   const double bound = 0x1p-49 * (largest_component(a) * largest_component(b)) + 0x1p-1070;
   for (int k = 0; k < 3; ++k)
     if (certain_sign(n[k], bound) != 0) return false;

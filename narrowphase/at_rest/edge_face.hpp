@@ -13,15 +13,15 @@ enum class EdgeFace : std::uint8_t {
   overlapping,  // a segment
 };
 
-// Three coordinates a point: finite, of any magnitude. An edge of length zero and a face without area are the
-// points and segments that they are. Some 20 ns where rounding leaves no doubt, about a microsecond where it
-// does, tens of them where magnitudes differ by more than 2^100.
+// Points have three finite coordinates of any magnitude. An edge of length zero and a face without area are
+// the points and segments that they are. An answer takes 20 ns where rounding leaves no doubt, else about a
+// microsecond, tens of them where magnitudes differ by more than 2^100.
 struct EdgeAndFace {
   const double *e[2], *f[3];
 };
 EdgeFace edge_face(const EdgeAndFace& pair);
 
-// Whether three points lie on one line, or are fewer than three.
+// Tells whether three points lie on one line, or are fewer than three.
 bool exactly_collinear(const double* p, const double* q, const double* r);
 
 }  // namespace onset

@@ -1,4 +1,4 @@
-// An edge and a face at rest in integers C; areas fit M, volumes and products of two areas fit T.
+// An edge and a face at rest in integers of fixed or any width.
 #pragma once
 
 #include "narrowphase/at_rest/edge_face.hpp"
@@ -7,7 +7,8 @@
 
 namespace onset {
 
-// Coordinates are below 2^c. Differences, below 2^(c + 1), fit C; M holds 2^(2c + 4), T holds 2^(4c + 9).
+// For coordinates below 2^c, C holds differences, below 2^(c + 1), M areas, below 2^(2c + 4), and T volumes
+// and products of two areas, below 2^(4c + 9).
 template <class C, class M, class T>
 class ExactEdgeFace {
  public:
@@ -22,8 +23,7 @@ class ExactEdgeFace {
     return exact_cross<M>(difference(f_[1], f_[0]), difference(f_[2], f_[0]));
   }
 
-  // The face has area. A line that is not in its plane meets it where no two of its sides are passed on
-  // different sides.
+  // Decides for a face with area, which a line meets iff no two of its sides are passed on different sides.
   EdgeFace decide(const std::array<M, 3>& n) const {
     const int s0 = side(n, e_[0]), s1 = side(n, e_[1]);
     if (s0 == s1) return s0 == 0 ? coplanar(n) : EdgeFace::apart;
@@ -38,8 +38,8 @@ class ExactEdgeFace {
     return on || s0 == 0 || s1 == 0 ? EdgeFace::touching : EdgeFace::crossing;
   }
 
-  // The face is the segment from its corner `first` to `last`. overlapping: all are on one line, and what
-  // they share there is left open.
+  // Decides for a face that is the segment from `first` to `last`. overlapping: all are on one line, and what
+  // they share is left open.
   static EdgeFace of_segments(const Point& e0, const Point& e1, const Point& first, const Point& last) {
     const Point u = difference(e1, e0), v = difference(last, first), w = difference(first, e0);
     const auto m = exact_cross<M>(u, v), s = exact_cross<M>(w, v), t = exact_cross<M>(w, u);
@@ -64,8 +64,7 @@ class ExactEdgeFace {
     return sign_of(volume(n, difference(p, f_[0])));
   }
 
-  // The part of the edge, from 0 to 1, that is on the inner side of all three sides of the face, in the
-  // projection along an axis on which the normal is not 0.
+  // Keeps the part of the edge, from 0 to 1, on the inner side of all sides, projected along an axis.
   EdgeFace coplanar(const std::array<M, 3>& n) const {
     std::size_t k = 0;
     while (sign_of(n[k]) == 0) ++k;

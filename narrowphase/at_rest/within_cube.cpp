@@ -8,9 +8,8 @@
 namespace onset {
 namespace {
 
-// The differences of the two primitives: a triangle or a parallelogram, and the cube of half width d, scaled
-// so that none is above 4 and differences do not overflow. What underflows is off by 2^-1074, far less than
-// rounding counts for here.
+// The polygon of differences and the cube of half width d, scaled so that none is above 4. Underflow is far
+// less than the rounding that is counted here.
 struct Differences {
   Vec corner[4];
   int count;
@@ -31,8 +30,8 @@ struct Differences {
     d = half_width * scale;
   }
 
-  // Whether the polygon is beyond the cube in direction m (any doubles), which reaches d |m|_1. A term of the
-  // product carries 4 roundings, the reach 4: below 13u |m| |corner| + 5u d |m|_1 in the largest coordinates.
+  // Tells whether the polygon is beyond the cube in direction m, any doubles. Products err by 13u |m|
+  // |corner| in the largest coordinates, the reach d |m|_1 by 5u (docs/theory.md, §19).
   bool beyond(const Vec& m) const {
     const double reach = d * sum_of_magnitudes(m);
     double least = INFINITY, most = -INFINITY, farthest = 0;

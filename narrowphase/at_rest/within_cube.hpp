@@ -5,8 +5,8 @@
 
 namespace onset {
 
-// False: the L-infinity distance is certainly beyond d. True: it is not, or only by rounding (2^-44 of the
-// pair's size, about). x: the four points of the pair, finite, within kMaxCoordinate.
+// Returns false where the distance is certainly beyond d, true where it is not, or by no more than about
+// 2^-44 of the pair's size. x: the pair's four points, finite, within kMaxCoordinate.
 bool within_cube(PairKind kind, const double* const (&x)[4], double d);
 
 }  // namespace onset

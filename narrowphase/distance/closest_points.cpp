@@ -11,7 +11,7 @@ double largest_corner(const Differences<double>& d) {
   return std::sqrt(r);
 }
 
-// U and V to multiples of 2^-52, which moves the point by no more than u |a| + 2u |b|.
+// Rounding to multiples of 2^-52 moves the point by at most u |a| + 2u |b|.
 struct Foot {
   double U, V;
 };
@@ -31,8 +31,7 @@ void put_direction(const Vec& n, double (&direction)[3]) {
   for (int i = 0; i < 3; ++i) direction[i] = n[i] + 0.0;
 }
 
-// Convexly, from the corners: each is off by u of its size; with a triangle's exact weights the products and
-// two sums add 3u, with a square's two rounds of a product and a sum 4u: below 5u rho in all.
+// Computes the point as a convex mean of the corners, within 5u rho (docs/theory.md, L42).
 Vec point_at(const Differences<double>& d, const Foot& f) {
   const Vec(&c)[4] = d.corner;
   if (d.kind == PairKind::vertex_face) return ((1 - f.U - f.V) * c[0] + f.U * c[1]) + f.V * c[2];
@@ -40,16 +39,14 @@ Vec point_at(const Differences<double>& d, const Foot& f) {
   return (1 - f.U) * first + f.U * second;
 }
 
-// In units of the pair. A point's length is off by 5u rho and, with the square root, 2.5u of itself. A
-// margin: the products with a corner by 4u |n| rho, its own u included, the length of n and the quotient
-// by 3.5u of the result. Both stay below 8u rho, second order included; `blur` is what else the differences
-// are off by.
+// In units of the pair. A point's length and a margin err by 7.5u rho, for which 8u is taken (docs/theory.md,
+// L42); `blur` is what else the differences are off by.
 struct Bounds {
   double distance, lower, upper;
 };
 constexpr double kRounding = 0x1p-50, kWidest = 0x1.8p-48;  // 8u, 48u
 
-// In doubles; false: they do not tell, be it for a tie, for a primitive that is too thin, or as the pair may
+// Finds all in doubles. Returns false where they do not tell: for ties, thin primitives, and pairs that may
 // touch.
 bool find(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
   const Plane<double> plane(d);
@@ -83,10 +80,8 @@ VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
   return nn.hi > 0x1p-400 ? (DoubleDouble(1.0) / sqrt(nn)) * n : VecOf<DoubleDouble>{};
 }
 
-// In double-doubles all features are found, and directions made square to them, within 2^-98 rho: a direction
-// that is off by that relative to the distance costs the far ends of a feature 2^-98 rho^2 / distance of
-// their margin, less than 4u rho where the distance is more than 2^-47 rho; where it is less, 0 is close
-// enough a bound.
+// Finds features and directions within 2^-98 rho, which costs a margin 2^-98 rho^2 / distance: below 4u rho
+// for distances above 2^-47 rho, while for others 0 is close enough a bound (docs/theory.md, T8).
 void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
                  Bounds& bounds) {
   using V = VecOf<DoubleDouble>;
@@ -103,8 +98,7 @@ void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur,
   }
   const Foot foot = rounded(d.kind, nearest.U.hi, nearest.V.hi);
   const V w = (d.q - DoubleDouble(foot.U) * d.a) - DoubleDouble(foot.V) * d.b;
-  // Products with a corner and the quotient by its length err by less than 80 u^2, a point by less than 60
-  // u^2 of rho.
+  // Margins err by less than 80 u^2 rho, points by 60 u^2 rho (docs/theory.md, L43).
   const double error = 0x1p-98 * rho + 2 * blur;
   bounds.distance = sqrt(dot(w, w)).hi;
   bounds.upper = bounds.distance * (1 + 0x1p-50) + error;

@@ -1,4 +1,4 @@
-// The closest points of a pair at one time, the direction that keeps it apart, and certified bounds of its
+// Closest points of a pair at one time, the direction that keeps it apart, and certified bounds of its
 // distance.
 #pragma once
 
@@ -7,42 +7,37 @@
 
 namespace onset {
 
-// Lengths are model lengths; u = 2^-53, rho is the largest corner difference first - second of the pair (at
-// the time). All that is said of errors holds up to 2^-1073 in addition, the spacing of the smallest doubles.
+// Model lengths; rho is the largest corner difference at the time, and 2^-1073 adds to all errors.
 struct ClosestPoints {
-  // Signed, as in ClosePair: feasible multiples of 2^-52, those of the first primitive sum to exactly 1,
-  // those of the second to exactly -1: the difference of the points does not depend on where in space the
-  // pair is. Exactly 0 for corners that take no part.
+  // Feasible multiples of 2^-52, signed as in ClosePair: the first primitive's sum to 1, the second's to -1.
+  // They are 0 for corners that take no part.
   double weights[4];
-  double distance;  // of the points that the weights stand for: within 48 u rho of the exact distance of the
-                    // pair
-  // Certified: 0 <= lower <= exact distance <= upper, upper - lower <= 64 u rho, and lower > 0 wherever the
-  // pair is apart by more than 2^-47 rho; unless features tie it is so down to 2^-90 rho.
+  // The distance of the weights' points, within 48 u rho of the exact one.
+  double distance;
+  // 0 <= lower <= exact distance <= upper <= lower + 64 u rho, and lower > 0 where the pair is apart by more
+  // than 2^-47 rho, or 2^-90 rho where no features tie (docs/theory.md, T8).
   double lower, upper;
-  // From the second primitive towards the first, of unit length up to 8u; where the pair touches, 0 or any
-  // that does. Its least product with a corner difference, which bounds the distance as long as the direction
-  // is held, is no less than lower - 16 u rho.
+  // From the second primitive towards the first, of unit length up to 8u; 0 or any where the pair touches.
+  // Its least product with a corner difference is at least lower - 4.5 u rho.
   double direction[3];
-  // The closest points are inside both primitives, or on the boundary, and the direction is square to both
-  // edges or the face; false: it is square to an edge that holds one of them, or leads from vertex to vertex.
+  // Whether the direction is square to both edges or the face; else only to an edge, or to nothing.
   bool square;
 };
 
-// x: the four points of the pair, three coordinates each (finite, within kMaxCoordinate).
+// x: the pair's four points, finite and within kMaxCoordinate.
 ClosestPoints closest_points(PairKind kind, const double* const (&x)[4]);
 
-// The same at time t in [0, 1] of the exact motion from x0 to x1; rho is the largest corner difference at
-// both ends, where the one at t is less than 2^-40 of that.
+// Finds them at time t of the exact motion from x0 to x1; rho is that of both ends where the one at t is less
+// than 2^-40 of it.
 ClosestPoints closest_points(PairKind kind, const double* const (&x0)[4], const double* const (&x1)[4],
                              double t);
 
-// The same of differences that are one rounding and `blur` off; false where doubles do not tell, or the pair
-// may touch. All bounds grow by 8 blur. Lengths are in the differences' unit.
+// Finds them in doubles, in the unit of the differences, which are one rounding and `blur` off: bounds grow
+// by 8 blur. Returns false where doubles do not tell, or the pair may touch.
 bool quick_closest_points(const Differences<double>& d, double blur, ClosestPoints& r);
 
-// The same in double-doubles throughout, of differences that are off by `blur` at most: the direction is that
-// of the exact closest points within u + 2^-96 rho^2 / distance^2. Lengths are in the differences' unit; none
-// is beyond 2^10.
+// Finds them in double-doubles, in the unit of the differences, which are below 2^10 and off by `blur` at
+// most; the direction is right within u + 2^-96 rho^2 / distance^2.
 ClosestPoints precise_closest_points(const Differences<DoubleDouble>& d, double blur);
 
 }  // namespace onset

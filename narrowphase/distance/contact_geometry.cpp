@@ -11,15 +11,14 @@
 namespace onset {
 namespace {
 
-// Of the pair's size. A gap that is wider gives a direction that neither the rounding of t nor that of the
-// weights, each a few 2^-53 of the size, can turn by much.
+// Of the pair's size: the rounding of t and the weights cannot turn the direction of a wider gap by much.
 constexpr double kResolved = 0x1p-46;
-// Of a length: what rounding in doubles leaves of a product or a part of it that is 0.
+// Of a length: rounding leaves no more of a part that is 0.
 constexpr double kNothing = 0x1p-40;
 
 double length(const Vec& v) { return std::sqrt(dot(v, v)); }
 
-// Exchanging axes an odd number of times turns a cross product round.
+// An odd exchange of axes turns a cross product round.
 bool odd(const std::array<int, 3>& axes) { return (axes[1] - axes[0] + 3) % 3 != 1; }
 
 Vec square_to(const Vec& e) {
@@ -42,7 +41,7 @@ VecOf<DoubleDouble> motion_of(const PreciseMotion& m, const double (&weights)[4]
   return ((m.end.q - m.start.q) - U * (m.end.a - m.start.a)) - V * (m.end.b - m.start.b);
 }
 
-// A pair whose gap does not give its normal: it touches, or is at a boundary with next to no gap.
+// Finds the normal of a pair that touches, or nearly does at a boundary.
 class Touching {
  public:
   Touching(const ExactPair& pair, const Differences<DoubleDouble>& d, const ClosestPoints& near, double size,
@@ -51,9 +50,9 @@ class Touching {
     if (plane_.resolved) across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
   }
 
-  // Inside both primitives: across the plane, on the side that the pair came from. 0: not known.
+  // Returns the side of a x b that the pair came from, inside both primitives; 0: not known.
   int side() const {
-    const int s = side_before(pair_, t_);  // of a x b, with the form of the exact decision
+    const int s = side_before(pair_, t_);
     return pair_.kind == PairKind::vertex_face ? s : -s;
   }
   Vec inside(int side) const {
@@ -62,8 +61,7 @@ class Touching {
     return std::fabs(towards) > kNothing * length(past_) ? (towards > 0 ? across_ : -1 * across_) : wound();
   }
 
-  // At a boundary: along p1 - p2, or across the plane, if that is where the pair came from; else along its
-  // way.
+  // At a boundary: along p1 - p2, or across the plane, if the pair came from there; else along its way.
   Vec at_boundary() const {
     const Vec direction = vec(near_.direction);
     if (near_.lower > 0 && came_along(direction)) return direction;
@@ -81,11 +79,11 @@ class Touching {
     const bool told = std::fabs(here) > 0x1p-90 * size_ * length(rounded(n));
     return !told ? side() : (here > 0) != plane_.swapped ? 1 : -1;
   }
-  // The winding decides on either side of a face, or between edges, that nothing moves from.
+  // The winding decides where nothing moves.
   Vec wound() const { return odd_axes_ ? -1 * across_ : across_; }
 
-  // Within the plane; or square to the longest edge, or along it, end on end. At rest p1 - p2 decides, or the
-  // winding, or, without one, any direction square to the edge.
+  // Within the plane; or square to the longest edge, or along it, end on end. At rest p1 - p2 decides, else
+  // the winding, or any direction square to the edge.
   Vec along_way() const {
     const bool thin = !(plane_.width2.hi > 0x1p-80 * plane_.length2.hi);
     const Vec e = thin ? unit(rounded(plane_.along)) : Vec{}, n = past_ - dot(past_, e) * e;
@@ -106,7 +104,6 @@ class Touching {
   Vec across_{};  // a x b
 };
 
-// Lengths in units of the pair.
 struct Geometry {
   ClosestPoints near;
   Vec normal;
@@ -114,10 +111,9 @@ struct Geometry {
   bool degenerate;
 };
 
-// In doubles, where the gap is wide and the motion along it, if there is any, more than rounding; false: not
-// so. Mixed differences are 4u of their sizes at both ends off. A direction whose margin is within 2^-47 of
-// the distance, both of the size, is within 2^-17 of the right one at worst, where features tie, and within
-// 2^-40 else. Motions are sums of three differences, 12u of their size off at either end.
+// Finds all in doubles; false where the gap is not wide, or the motion along it not more than rounding. Mixed
+// differences err by 4u, motions by 12u of their sizes, the direction by 2^-17 where features tie and else by
+// 2^-40 (docs/theory.md, §16.4).
 bool wide_geometry(const ExactPair& pair, double t, Geometry& f) {
   const double scale = inverse_unit(
       std::max(largest_corner_component(pair.kind, pair.t0), largest_corner_component(pair.kind, pair.t1)));

@@ -10,29 +10,28 @@
 namespace onset {
 
 struct ContactGeometry {
-  // Of the pair's four vertices: the closest points, the first side's sum to 1, the second's to -1, so that
-  // p1 - p2 = sum of weight * position. Clamped to the primitives.
+  // p1 - p2 = sum of weight * position. The first side's weights sum to 1, the second's to -1; both points
+  // are in their primitives.
   std::array<double, 4> weights{};
-  // Unit, in the caller's axes. The direction of p1 - p2, which is square to the face, or to both edges,
-  // where the points are inside both primitives; touching inside, the same on the side that the pair came
-  // from, exactly. Touching, or as good as that, at a boundary: a direction that does, from where the pair
-  // came.
+  // Unit, in the caller's axes: the direction of p1 - p2, square to the face or both edges where the points
+  // are inside. A pair that touches inside has it on the side from which it came, exactly; one that touches
+  // at a boundary, or nearly, some direction that leads there.
   std::array<double, 3> normal{};
-  double gap = 0;    // |p1 - p2|, model length
-  double speed = 0;  // normal . (motion of p1 - p2 over the whole step), model length; < 0: closing
-  // Other normals would do as well: the points are within 2^-46 of the pair's size of each other and at a
-  // boundary, or touching and nothing tells the side.
+  double gap = 0;  // |p1 - p2|, model length
+  // The motion of p1 - p2 along the normal over the whole step, model length; below 0 it is closing.
+  double speed = 0;
+  // Other normals would do: the points are within 2^-46 of the pair's size at a boundary, or nothing tells
+  // the side of a touching pair.
   bool degenerate = false;
 };
 
-// At time t in [0, 1], until which the pair is apart. `parting`: the pair is in contact at t = 0 and the
-// motion parts it (its past then lies on the side that it moves to). The weights give p1 - p2 within about
-// 20u rho of the shortest difference, rho the pair's largest corner difference.
+// Computes them at time t, until which the pair is apart; the weights give p1 - p2 within about 20u rho, rho
+// the largest corner difference. `parting`: the pair is in contact at t = 0, so its past lies on the side
+// that it moves to.
 ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
                            bool parting);
 
-// The same for `count` pairs of one kind, ordinary ones in lanes: frames[i] of vertices[i] at t[i].
-// `parting[i]`: as above.
+// The same for `count` pairs of one kind, ordinary ones in lanes.
 void contact_geometries(InstructionSet kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
                     const double* t, const bool* parting, std::size_t count, ContactGeometry* out);
 

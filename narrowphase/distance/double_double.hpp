@@ -1,9 +1,8 @@
-// Numbers as unevaluated sums of two doubles: about 106 bits, by error-free transformations of IEEE + - *
-// alone.
+// Numbers as unevaluated sums of two doubles: about 106 bits, by error-free transformations.
 //
-// With u = 2^-53 sums are right to 3 u^2, products to 8 u^2, quotients and square roots to 20 u^2 (Joldes,
-// Muller and Popescu 2017), as long as nothing over- or underflows: callers scale what they compute with near
-// 1, and what is lost below 2^-900 does not count.
+// Sums are right to 3 u^2 and products to 8 u^2 (Joldes, Muller and Popescu 2017), quotients and square roots
+// to 20 u^2 (docs/theory.md, §16.2), where nothing over- or underflows: callers scale to near 1, and what is
+// lost below 2^-900 does not count.
 #pragma once
 
 #include <cmath>
@@ -18,7 +17,7 @@ struct DoubleDouble {
   DoubleDouble(double h, double l) : hi(h), lo(l) {}
 };
 
-// a + b without error; quick: |a| >= |b|, or a = 0.
+// Adds without error; quick: |a| >= |b|, or a = 0.
 inline DoubleDouble two_sum(double a, double b) {
   const double s = a + b, part = s - a;
   return {s, (a - (s - part)) + (b - part)};
@@ -29,8 +28,8 @@ inline DoubleDouble quick_two_sum(double a, double b) {
 }
 inline DoubleDouble two_difference(double a, double b) { return two_sum(a, -b); }
 
-// a b without error, by Dekker's splitting. A compiler that fuses products into sums must not do so with the
-// rounded product, whose error is wanted; all others here are exact, fused or not.
+// Multiplies without error, by Dekker's splitting. The rounded product must not be fused into a sum, as its
+// error is wanted; all others here are exact, fused or not.
 inline DoubleDouble two_product(double a, double b) {
   const volatile double rounded = a * b;
   const double p = rounded, a1 = 0x8000001p0 * a, b1 = 0x8000001p0 * b;

@@ -42,7 +42,7 @@ class Best {
 
 }  // namespace
 
-// As in the kernels (maximum_norm.inl): an axis, the hull's normal, or an edge of the hull crossed with an axis.
+// The candidates are those of docs/theory.md, L8.
 Vec best_direction_in_maximum_norm(const Differences<DoubleDouble>& d) {
   Best best(d);
   for (int a = 0; a < 3; ++a) {

@@ -1,12 +1,12 @@
-// The direction that separates a pair best where distance is measured in the maximum norm, however thin the pair is.
+// The direction that separates a pair best in the maximum norm, however thin the pair is.
 #pragma once
 
 #include "narrowphase/distance/precise_differences.hpp"
 
 namespace onset {
 
-// Of Euclidean length 1; 0 where all corners are 0. The distance is at least min_k w.c_k / |w|_1, and for this w no less but for
-// the rounding of w (a few u of the largest corner).
+// Returns w of Euclidean length 1; 0 where all corners are 0. The distance is min_k w.c_k / |w|_1 but for the
+// rounding of w, a few u of the largest corner.
 Vec best_direction_in_maximum_norm(const Differences<DoubleDouble>& d);
 
 }  // namespace onset

@@ -1,5 +1,4 @@
-// The point of a pair's differences that is nearest to the origin, and the direction that keeps it away: one
-// text for doubles and for double-doubles.
+// The point of a pair's differences nearest to the origin, and the direction that keeps it away.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +12,9 @@ namespace onset {
 
 inline Vec rounded(const VecOf<DoubleDouble>& v) { return {{v[0].hi, v[1].hi, v[2].hi}}; }
 
-// The differences first - second of a pair are q - U a - V b, with (U, V) in the triangle U, V >= 0, U + V <=
-// 1 (vertex-face: a and b lead from the first corner of the face to the others) or in the unit square
-// (edge-edge: a runs against the first edge, b along the second). Their corners are those of the triangle, or
-// of the square: (0, 0), (0, 1), (1, 0), (1, 1) with edges.
+// The differences first - second of a pair, q - U a - V b: (U, V) is in the triangle U, V >= 0, U + V <= 1
+// (vertex-face: a and b lead from the face's first corner) or in the unit square (edge-edge: a runs against
+// the first edge, b along the second), with corners (0, 0), (0, 1), (1, 0), (1, 1).
 template <class T>
 struct Differences {
   PairKind kind;
@@ -31,7 +29,7 @@ struct Differences {
   }
 };
 
-// Unit roundoff, and what is left of a length of 1 where squares still hold.
+// The least width that is resolved, of a length of 1, and the least square that is trusted.
 template <class T>
 struct Precision;
 template <>
@@ -44,13 +42,12 @@ struct Precision<DoubleDouble> {
 };
 
 // The plane of a and b by Gram-Schmidt from the longer one, twice: `across` is then as exact as the other
-// edge, a few roundings of its length, however thin the primitive is, so that the normal's tilt over the
-// width is as little.
+// edge, however thin the primitive is.
 template <class T>
 struct Plane {
   bool swapped = false;        // b is the longer one
-  bool resolved = false;       // its width is more than Precision::thinnest of its length
-  VecOf<T> along{}, across{};  // the longer edge, and the other without its part along it
+  bool resolved = false;       // its width is more than `thinnest` of its length
+  VecOf<T> along{}, across{};  // the longer edge, and the other's part across it
   T length2{}, width2{}, share{};
 
   explicit Plane(const Differences<T>& d) {
@@ -73,13 +70,14 @@ struct Plane {
 template <class T>
 struct Nearest {
   T U{}, V{};
-  bool inside =
-      false;  // above the interior or the boundary of a resolved plane: the direction is square to it
-  VecOf<T> direction{};  // not of unit length: `margin` of it is the distance, up to rounding
+  // The point is above a resolved plane, and the direction is square to that.
+  bool inside = false;
+  // Its `margin` is the distance, up to rounding.
+  VecOf<T> direction{};
 };
 
-// Where the plane's nearest point lies; false: outside. The second round takes back what the first lost to a
-// thin primitive.
+// Finds the plane's nearest point; false: outside. The second round takes back what the first lost to a thin
+// primitive.
 template <class T>
 bool foot_on_plane(const Differences<T>& d, const Plane<T>& plane, Nearest<T>& r) {
   const VecOf<T>& other = plane.swapped ? d.a : d.b;
@@ -97,8 +95,8 @@ bool foot_on_plane(const Differences<T>& d, const Plane<T>& plane, Nearest<T>& r
   return d.kind == PairKind::vertex_face ? !(r.U + r.V > one) : !(r.U > one || r.V > one);
 }
 
-// The nearest point of the boundary. Inside a side its direction is made square to it: else the rounding of
-// the way along the side, relative to a short distance, would tilt it.
+// Finds the nearest point of the boundary. Inside a side the direction is made square to it: rounding along
+// the side would tilt it where the distance is short.
 template <class T>
 Nearest<T> nearest_on_sides(const Differences<T>& d) {
   struct Side {
@@ -135,7 +133,7 @@ Nearest<T> nearest_on_sides(const Differences<T>& d) {
   return best;
 }
 
-// min over the corners of n . corner / |n|: the distance is no less, whatever n is.
+// Returns a lower bound of the distance, whatever n is.
 template <class T>
 T margin(const Differences<T>& d, const VecOf<T>& n) {
   const T nn = dot(n, n);

@@ -7,8 +7,8 @@
 
 namespace onset {
 
-// The sign at a time of the cubic with Bernstein coefficients f on [0, 1], |f| < 2^bits, in integers E of N
-// limbs: f (2^e)^3 is homogeneous in x and y = 2^e - x, below 2^(bits + 3e + 3).
+// The sign at a time of a cubic with Bernstein coefficients below 2^bits on [0, 1]: as a form in x and y =
+// 2^e - x it is below 2^(bits + 3e + 3) (docs/theory.md, L37).
 template <int N, class T>
 struct CubicSign {
   const T (&f)[4];
@@ -16,7 +16,6 @@ struct CubicSign {
   bool fits = true;
 
   int at(double t) { return sign_of(value(to_dyadic(t))); }
-  // Rounded.
   double estimate_at(double t) {
     const Dyadic d = to_dyadic(t);
     return std::ldexp(estimate(value(d)), -3 * d.exponent);
@@ -35,8 +34,8 @@ struct CubicSign {
   }
 };
 
-// f has opposite signs at k / 2^depth and (k + 1) / 2^depth, depth < 50, and one root between. None: it does
-// not fit.
+// Finds the adjacent doubles around f's one root between k / 2^depth and (k + 1) / 2^depth, depth < 50, where
+// its signs differ. None: it does not fit.
 template <int N, class T>
 std::optional<DoubleBracket> bracket_of(const T (&f)[4], int bits, std::uint64_t k, int depth) {
   const double width = std::ldexp(1.0, -depth), lo = double(k) * width, hi = lo + width;
@@ -55,7 +54,7 @@ std::optional<DoubleBracket> bracket_of(const T (&f)[4], int bits, std::uint64_t
   const double slope =
       3 * (((c[1] - c[0]) * (1 - s) + 2 * (c[2] - c[1]) * s) * (1 - s) + (c[3] - c[2]) * s * s) / width;
   double t = lo + s * width;
-  // Once more with the exact value: then it is the root up to an ulp or two.
+  // Another step with the exact value leads to within an ulp or two of the root.
   if (const double next = t - sign.estimate_at(t) / slope; next > lo && next < hi) t = next;
   const int before = lo == 0 ? sign_of(f[0]) : sign.at(lo);
   const DoubleBracket r = adjacent_doubles(lo, hi, t, [&](double at) { return before * sign.at(at); });

@@ -1,8 +1,7 @@
-// Is a quadratic zero at a cubic's root? In integers of fixed width.
+// Is a quadratic zero at a cubic's root? In integers of fixed width (docs/theory.md, L40).
 //
-// With t = x / (x + y) both are forms in (x : y): f = sum a_i x^i y^(3 - i), g = sum b_i x^i y^(2 - i). Where
-// b_2 != 0 the remainder b_2^2 f mod g = r_1 x + r_0 y vanishes at every common root: if it is not zero
-// throughout, the only candidate is (-r_0 : r_1), and that one is common iff g is zero there.
+// As forms f = sum a_i x^i y^(3 - i), g = sum b_i x^i y^(2 - i), t = x / (x + y): the remainder b_2^2 f mod g
+// = r_1 x + r_0 y is zero at common roots, so unless it vanishes (-r_0 : r_1) is the only candidate.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +10,8 @@
 
 namespace onset {
 
-// Widths for coordinates of q, a, b below 2^c. By the sums of products in exact_search.hpp, with every
-// product of k coordinates below 2^(k c): |a_i| < 54 2^(3c), |b_i| < 24 2^(2c); the first step of the
-// division is below 2 * 54 * 24 2^(5c), r below 2 * 24 * 2592 2^(7c) < 2^(7c + 17), at k / 2^depth, depth <=
-// 24, below 2^(7c + 42), and g at the candidate below 3 * 24 * 124416^2 2^(16c) < 2^(16c + 41).
+// For coordinates of q, a, b below 2^c the remainder at k / 2^depth, depth <= 24, is below 2^(7c + 42), g at
+// the candidate below 2^(16c + 41).
 template <int RemainderLimbs, int ValueLimbs>
 struct CommonRootWidths {
   static constexpr bool fit(int c) {
@@ -24,9 +21,9 @@ struct CommonRootWidths {
 using NarrowCommonRoot = CommonRootWidths<8, 17>;  // c <= 65
 using WideCommonRoot = CommonRootWidths<14, 31>;   // c <= 121
 
-// Bernstein coefficients on [0, 1], each polynomial up to a factor of its own; the cubic has one root, a
-// simple one, between k / 2^depth and (k + 1) / 2^depth, and is not zero at these. Whether the quadratic, not
-// zero throughout, vanishes at that root; changes_sign: its signs at the two ends are opposite.
+// Tells whether the quadratic, not zero throughout, vanishes at the cubic's only and simple root in the open
+// interval [k, k + 1] / 2^depth, at whose ends the cubic is not zero. changes_sign: the quadratic's signs
+// there are opposite. Bernstein coefficients are on [0, 1], up to a factor.
 template <int RemainderLimbs, int ValueLimbs, class T>
 bool vanishes_at_root(CommonRootWidths<RemainderLimbs, ValueLimbs>, const T (&cubic)[4],
                       const T (&quadratic)[3], std::uint64_t k, int depth, bool changes_sign) {

@@ -38,8 +38,7 @@ void set_points(const ExactPair& pair, IntegerPoints& t0, IntegerPoints& t1) {
     }
 }
 
-// Replaces the start by the positions at time `from`, both ends scaled by the power of two that makes it an
-// integer.
+// Replaces the start by the positions at `from`, scaled to integers.
 void start_later(double from, IntegerPoints& t0, IntegerPoints& t1) {
   const Dyadic t = to_dyadic(from);
   const Integer one = Integer(1) << unsigned(t.exponent);
@@ -71,7 +70,6 @@ Polynomial derivative(const Polynomial& p) {
   return Polynomial(std::move(c));
 }
 
-// As the rational k / 2^depth.
 double rounded_down(const Integer& k, unsigned depth) {
   if (k.is_zero()) return 0;
   const int last = std::max(int(msb(k)) - int(depth) - 52, -1074);  // exponent of the last bit of the double
@@ -94,7 +92,7 @@ DoubleBracket bracket(const IsolatedRoot& root, bool adjacent) {
   const double hi = rounded_up(root.k + 1, root.depth);
   if (!adjacent) return {lo, hi};
   const int before = sign_at(root.p, root.k, root.depth);
-  // A double strictly between lo and hi lies inside the isolating interval.
+  // Doubles strictly between lo and hi are in the isolating interval.
   const double guess = lo + position_in_interval(root) * (hi - lo);
   return adjacent_doubles(lo, hi, guess, [&](double t) {
     const Dyadic d = to_dyadic(t);
@@ -102,10 +100,9 @@ DoubleBracket bracket(const IsolatedRoot& root, bool adjacent) {
   });
 }
 
-// n = a x b is the normal, f = q.n the coplanarity cubic. At its roots one axis with n_k != 0 decides; where
-// n = 0 the boundary segments are all there is. If f vanishes for all t and the pair does not touch at t = 0,
-// the first contact is on the boundary: if it were in the interior at t* > 0 with n(t*) != 0, the point's
-// coordinates, continuous there, would be inside a little earlier as well.
+// The complete decision (docs/theory.md, §15.4). At the roots of f = q.n, n = a x b, one axis with n_k != 0
+// decides; where n = 0 the boundary is all there is, as it is where f is 0 for all t and the pair apart at 0
+// (L41).
 class CompleteDecision {
  public:
   CompleteDecision(PairKind kind, const IntegerPoints& t0, const IntegerPoints& t1)
@@ -114,7 +111,7 @@ class CompleteDecision {
     segments_ = boundary_of(kind, r_, boundary_);
   }
 
-  // first(root) is called with contacts, the first one among them; empty: none.
+  // Calls found(root) for contacts, the first one among them, or for none.
   template <class Found>
   void find(Found&& found) const {
     const Polynomial f = dot(r_.q, n_);
@@ -157,13 +154,13 @@ class CompleteDecision {
     for (int i = 0; i < segments_; ++i) find_on(boundary_[i], found);
   }
 
-  // The segment is not touched at t = 0.
+  // Precondition: the segment is not touched at t = 0.
   template <class Found>
   static void find_on(const PointAndSegment<Polynomial>& s, Found&& found) {
     Polynomial on_line;  // zero where w x e = 0
     for (int k = 0; k < 3; ++k) on_line = greatest_common_divisor(on_line, cross(s.w, s.e, k));
     const Polynomial h = extent(s);
-    if (on_line.is_zero()) {  // collinear for all t: the first time at which h, negative at 0, reaches zero
+    if (on_line.is_zero()) {  // collinear for all t: h, negative at 0, reaches zero
       auto roots = isolated_roots(h);
       if (!roots.empty()) found(roots.front());
       return;
@@ -195,14 +192,14 @@ std::optional<DoubleBracket> complete_first_contact(const ExactPair& pair, bool 
   set_points(pair, t0, t1);
   std::optional<DoubleBracket> first;
   CompleteDecision(pair.kind, t0, t1).find([&](const IsolatedRoot& root) {
-    const DoubleBracket t =
-        bracket(root, adjacent);  // rounding is monotonic: the ends of the earliest are the smallest ends
+    // Rounding is monotonic: the ends of the earliest are the smallest ends.
+    const DoubleBracket t = bracket(root, adjacent);
     first = first ? DoubleBracket{std::min(first->lo, t.lo), std::min(first->hi, t.hi)} : t;
   });
   return first;
 }
 
-// By Taylor: the first derivative that is not 0 at t decides, the odd ones with the other sign.
+// By Taylor: the first derivative that is not 0 decides, the odd ones with the other sign.
 int side_before(const ExactPair& pair, double t) {
   IntegerPoints t0, t1;
   set_points(pair, t0, t1);

@@ -1,19 +1,18 @@
-// If the two do not touch at t = 0, the first contact is on the boundary of {U a + V b} (exact_complete.cpp):
-// for a segment, w x e = 0 and h = w.(e - w) >= 0. Those are quadratics, so its time is a root of one, where
-// the signs of the others are those of numbers alpha + beta sqrt(d).
+// Without a contact at t = 0 the first one is on the boundary of {U a + V b} (docs/theory.md, L41): for a
+// segment, w x e = 0 and h = w.(e - w) >= 0. It is a root of one of these quadratics, at which the others are
+// alpha + beta sqrt(d) up to a factor.
 //
-// Widths, for coordinates of q, a, b below 2^c. w and e are below 2^(c + 1), e - w and rates twice
-// that, the rate of e - w four times: in powers of t all coefficients are below 2^m, m = 2c + 7 (h: 3 *
-// 2^(2c + 5)). A root is (u + v sqrt(d)) / w with |u|, |w| < 2^(m + 1), d < 5 * 2^(2m).
+// For coordinates of q, a, b below 2^c coefficients are below 2^m, m = 2c + 7, and a root is (u + v sqrt(d))
+// / w with |u|, |w| < 2^(m + 1), d < 5 * 2^(2m) (§15.5).
 #include "narrowphase/exact/coplanar.hpp"
 
 namespace onset {
 namespace {
 
-// Limbs for a coefficient, and for products of two, three and six.
+// Limbs for a coefficient and products of two, three and six, and the bits that these take.
 template <int N1, int N2, int N3, int N6>
 struct Coplanar {
-  using Coefficient = Wide<N1>;  // m + 3 bits: sums of three
+  using Coefficient = Wide<N1>;  // m + 3: sums of three
   using Product = Wide<N2>;      // 2m + 5: u^2 + d
   using Alpha = Wide<N3>;        // 3m + 6
   using Compared = Wide<N6>;     // 6m + 11
@@ -49,7 +48,7 @@ struct Coplanar {
     return r;
   }
 
-  // In (0, 1]: +1, -1: that sign; 0: not certain. By the Bernstein coefficients.
+  // Returns g's sign in (0, 1]; 0: not certain.
   static int definite_sign(const Quadratic& g) {
     const Coefficient twice = g.a + g.a;
     const int first = sign_of(g.a), middle = sign_of(twice + g.b), last = sign_of(g.a + g.b + g.c);
@@ -63,7 +62,7 @@ struct Coplanar {
     Product d = 0;
   };
 
-  // In increasing order.
+  // Finds the roots in increasing order.
   static int roots_of(const Quadratic& p, Root (&out)[2]) {
     if (sign_of(p.c) == 0) {
       const int s = sign_of(p.b);
@@ -83,11 +82,11 @@ struct Coplanar {
     return 2;
   }
 
-  // Of alpha + beta sqrt(d). |alpha| < 17 * 2^(3m), |beta| < 6 * 2^(2m): alpha^2 and beta^2 d < 2^(6m + 10).
+  // As |alpha| < 12 * 2^(3m) and |beta| < 4 * 2^(2m), alpha^2 and beta^2 d are below 2^(6m + 10).
   static int sign_of_sum(const Alpha& alpha, const Alpha& beta, const Product& d) {
     const int a = sign_of(alpha), b = sign_of(d) == 0 ? 0 : sign_of(beta);
     if (a == 0 || b == 0 || a == b) return a != 0 ? a : b;
-    // Rounded: both right to 2^-45.
+    // Both are right to 2^-45.
     const double size = std::fabs(estimate(alpha)),
                  other = std::fabs(estimate(beta)) * std::sqrt(estimate(d));
     if (std::fabs(size - other) > 0x1p-40 * size) return size > other ? a : b;
@@ -95,7 +94,7 @@ struct Coplanar {
     return a * sign_of(x * x - y * y * Compared(d));
   }
 
-  // w^2 g at the root.
+  // Returns the sign of w^2 g at the root.
   static int sign_at(const Quadratic& g, const Root& r) {
     const Product u = r.u, w = r.w;
     const Product squares = r.v == 0 ? u * u : u * u + r.d;
@@ -105,7 +104,7 @@ struct Coplanar {
     return sign_of_sum(alpha, r.v > 0 ? beta : -beta, r.d);
   }
 
-  // The sign of w (t - root). |alpha| < 2^(m + 2 + e) for t = k / 2^e, and |beta| = 2^e: e < m fits.
+  // The sign of w (t - root). For t = k / 2^e, |alpha| < 2^(m + 2 + e) and |beta| = 2^e: e < m fits.
   struct TimeAgainstRoot {
     const Root& root;
     bool fits = true;
@@ -122,14 +121,13 @@ struct Coplanar {
     }
   };
 
-  // Without cancellation.
+  // Approximates the root without cancellation.
   static double approximately(const Root& r) {
     const double u = estimate(r.u), w = estimate(r.w), s = r.v * std::sqrt(estimate(r.d));
     if (u * s >= 0) return (u + s) / w;
     return estimate(Product(r.u) * Product(r.u) - r.d) / (w * (u - s));
   }
 
-  // Of one segment of the boundary.
   struct Segment {
     Quadratic off_line[3], extent;  // w x e and h
 
@@ -143,7 +141,7 @@ struct Coplanar {
       extent = w[0] * rest[0] + w[1] * rest[1] + w[2] * rest[2];
     }
 
-    // The first time in (0, 1] at which the point is on the segment, where it is not at t = 0.
+    // Finds the first time in (0, 1] at which the point is on the segment; it is not at t = 0.
     CoplanarContact first(bool adjacent) const {
       if (definite_sign(extent) < 0) return {};
       const Quadratic* moving = nullptr;
@@ -152,7 +150,7 @@ struct Coplanar {
         if (definite_sign(g) != 0) return {};
         moving = &g;
       }
-      // Collinear for all t: when h, negative at first, reaches zero.
+      // Collinear for all t: then h, negative at first, reaches zero.
       Root roots[2];
       const int count = roots_of(moving ? *moving : extent, roots);
       for (int i = 0; i < count; ++i) {

@@ -10,7 +10,7 @@
 namespace onset {
 namespace {
 
-// Deeper searches are degenerate as a rule, and the complete decision is then quicker.
+// Deeper searches are mostly degenerate, and the complete decision is then quicker.
 constexpr int kDeepest = 24;
 
 Grid grid_of(const ExactPair& pair) {
@@ -30,11 +30,10 @@ IntegerPoints<C> points_on_grid(const double* const (&points)[4], int last) {
   return r;
 }
 
-// Of the cubic, where coordinates of q, a, b are below 2^(bits + 1).
+// For coordinates of q, a, b below 2^(bits + 1) (docs/theory.md, L37).
 int cubic_bits_for(int bits) { return 3 * (bits + 1) + 5; }
 
-// How deep a search may go where the coordinates of q, a, b are below 2^(bits + 1) and the cubic has `width`
-// bits; < 0: it does not fit.
+// Returns how deep a search may go; below 0: it does not fit.
 int depth_for(int bits, int width) {
   const int room = width - 2 - cubic_bits_for(bits);
   return room < 0 ? -1 : std::min(room / 3, kDeepest);
@@ -43,7 +42,7 @@ int depth_for(int bits, int width) {
 struct Decided {
   Answer answer;
   bool final;                         // wider integers would not know more
-  std::optional<DoubleBracket> time;  // where it is yes; none: not known as precisely as was asked for
+  std::optional<DoubleBracket> time;  // none: not known as precisely as was asked for
 };
 
 template <int Limbs, class C, class M, class T>
@@ -65,7 +64,7 @@ Decided search(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerP
   return {found.answer, true, bracket_of<Limbs>(s.cubic(), cubic_bits, found.k, found.depth)};
 }
 
-// Coordinates of up to 61 bits in machine words; first with a cubic of 128 bits where that is enough.
+// Coordinates of up to 61 bits; first with a cubic of 128 bits where that is enough.
 Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
   const auto t0 = points_on_grid<std::int64_t>(pair.t0, grid.last),
              t1 = points_on_grid<std::int64_t>(pair.t1, grid.last);
@@ -78,7 +77,7 @@ Decided search_narrow(const ExactPair& pair, const Grid& grid, bool want_time) {
                                                   want_time);
 }
 
-// Coordinates of up to 120 bits in two limbs.
+// Coordinates of up to 120 bits.
 Decided search_two_limbs(const ExactPair& pair, const Grid& grid, bool want_time) {
   const auto t0 = points_on_grid<Wide<2>>(pair.t0, grid.last),
              t1 = points_on_grid<Wide<2>>(pair.t1, grid.last);
@@ -93,7 +92,7 @@ Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool w
   const int bits = grid.bits() + start.exponent + 1, depth = depth_for(bits, 64 * kWide);
   if (depth < 4) return {Answer::unknown, true, {}};
   auto t0 = points_on_grid<W>(pair.t0, grid.last), t1 = points_on_grid<W>(pair.t1, grid.last);
-  if (from > 0) {  // the positions then, in units that make them integers
+  if (from > 0) {  // the positions then, scaled to integers
     const W one = shifted(W(1), start.exponent), passed(start.numerator);
     for (int i = 0; i < 4; ++i)
       for (int a = 0; a < 3; ++a) {

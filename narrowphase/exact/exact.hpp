@@ -1,5 +1,5 @@
-// Do two primitives that move linearly touch, and when? The exact answer for the stored doubles: closed
-// primitives, separation 0, every degenerate case.
+// Whether and when two closed primitives that move linearly touch: exact for the stored doubles at separation
+// 0, in every degenerate case (docs/theory.md, §15).
 #pragma once
 
 #include <optional>
@@ -9,18 +9,17 @@
 
 namespace onset {
 
-// Coordinates: finite, of any magnitude. A microsecond or two, some more where a contact is exactly on the
-// primitives' boundary; tens of microseconds where f has a double root or primitives are degenerate at the
-// contact, and where magnitudes differ by more than 2^100.
+// Coordinates are finite, of any magnitude. An answer takes a microsecond or two; tens of them where f has a
+// double root, primitives are degenerate at the contact, or magnitudes differ by more than 2^100.
 
-// Whether they touch at a time in [from, 1], from in [0, 1].
+// Tells whether they touch at a time in [from, 1], from in [0, 1].
 bool exactly_touches(const ExactPair& pair, double from = 0);
 
-// The first time in [0, 1] at which they touch, between adjacent doubles (or the double that it is).
+// Finds the first time in [0, 1] at which they touch, between adjacent doubles.
 std::optional<DoubleBracket> exact_first_contact(const ExactPair& pair);
 
-// Whether they touch in [0, 1], and an interval that holds the first time, as wide as it comes. quick:
-// `unknown` rather than more than a few microseconds.
+// Tells whether they touch in [0, 1], and an interval that holds the first time. quick: `unknown` rather than
+// more than a few microseconds.
 enum class Effort { quick, complete };
 struct ExactAnswer {
   Answer answer;

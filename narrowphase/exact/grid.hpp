@@ -22,7 +22,7 @@ inline DoubleParts parts_of(double x) {
   return {exponent == 0 ? fraction : fraction | 1ull << 52, std::max(exponent, 1), b >> 63 != 0};
 }
 
-// Coordinates are integers of magnitude below 2^bits in units of 2^last.
+// Coordinates are integers below 2^bits in units of 2^last.
 struct Grid {
   int last = 4096, top = 0;
 

@@ -31,7 +31,6 @@ IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial&
 
 namespace {
 
-// Without the common factor of its coefficients.
 IntegerPolynomial primitive(const IntegerPolynomial& p) {
   Integer common = 0;
   for (int i = 0; i <= p.degree(); ++i) common = gcd(common, p[i]);
@@ -60,7 +59,7 @@ Division pseudo_divide(const IntegerPolynomial& p, const IntegerPolynomial& d) {
 
 using Coefficients = std::vector<Integer>;
 
-// The coefficients, up to a positive factor, in the Bernstein basis on [k, k + 1] / 2^depth.
+// Returns Bernstein coefficients on [k, k + 1] / 2^depth, up to a positive factor.
 Coefficients bernstein(const IntegerPolynomial& p, const Integer& k, unsigned depth) {
   const int n = p.degree();
   Coefficients c;
@@ -102,7 +101,7 @@ int sign_changes(const Coefficients& b) {
   return changes;
 }
 
-// The roots in the open interval. Ends for square-free p: small intervals have at most one sign change.
+// Finds the roots in the open interval. It ends for square-free p: short pieces have at most one sign change.
 void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k, unsigned depth,
              std::vector<IsolatedRoot>& roots) {
   const int changes = sign_changes(b);
@@ -122,8 +121,7 @@ void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k
 
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial a, IntegerPolynomial b) {
   while (!b.is_zero()) {
-    // Degrees are at most 3: coefficients without their common factors grow eightfold in length, which is
-    // cheaper.
+    // Degrees are at most 3: growing eightfold in length is cheaper than dividing by common factors.
     IntegerPolynomial r = a.degree() < b.degree() ? a : pseudo_divide(a, b).remainder;
     a = std::move(b);
     b = std::move(r);
@@ -177,7 +175,7 @@ bool has_one_sign(const Coefficients& b) {
   return sign_changes(b) == 0 && !b.front().is_zero() && !b.back().is_zero();
 }
 
-// Halves the root's interval until g has one sign in it, at most `rounds` times (< 0: as long as it takes);
+// Halves the root's interval until g has one sign in it, at most `rounds` times unless that is < 0; returns
 // g's sign, or 0.
 int narrow_to_one_sign(const IntegerPolynomial& g, IsolatedRoot& root, int rounds) {
   Coefficients p = bernstein(root.p, root.k, root.depth), left_p, right_p;
@@ -207,7 +205,7 @@ int sign_at(const IntegerPolynomial& g, IsolatedRoot& root) {
   if (g.degree() < 1) return g.is_zero() ? 0 : g[0].sign();
   constexpr int kCheap = 6;
   if (const int s = narrow_to_one_sign(g, root, kCheap); s != 0 || root.exact) return s;
-  // The only root that the common divisor can have in the interval is this one, and it is simple.
+  // The common divisor can have only this root in the interval, and it is simple.
   const IntegerPolynomial common = greatest_common_divisor(root.p, g);
   if (common.degree() > 0 && sign_at(common, root.k, root.depth) != sign_at(common, root.k + 1, root.depth))
     return 0;

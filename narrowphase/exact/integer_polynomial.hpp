@@ -1,5 +1,4 @@
-// Polynomials with integer coefficients of any size, and exact signs at their roots. For exact_complete.cpp
-// and edge_face.cpp only.
+// Polynomials with integer coefficients of any size, and exact signs at their roots (docs/theory.md, §15.4).
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -33,23 +32,23 @@ class IntegerPolynomial {
 };
 
 IntegerPolynomial greatest_common_divisor(IntegerPolynomial a, IntegerPolynomial b);
-// The same roots, each once; p != 0.
+// Returns a polynomial with the same roots, each once; p != 0.
 IntegerPolynomial square_free(const IntegerPolynomial& p);
-// The sign of p at numerator / 2^exponent.
+// Returns the sign of p at numerator / 2^exponent.
 int sign_at(const IntegerPolynomial& p, const Integer& numerator, unsigned exponent);
 
-// A root of the square-free p: at k / 2^depth (exact), or the only one in [k, k + 1] / 2^depth, inside it.
+// A root of the square-free p: at k / 2^depth (exact), or the only one inside [k, k + 1] / 2^depth.
 struct IsolatedRoot {
   IntegerPolynomial p;
   Integer k;
   unsigned depth = 0;
   bool exact = false;
 };
-// Where in its interval the inexact root of a polynomial of degree <= 3 lies, from 0 to 1, roughly.
+// Returns where in its interval the root lies, from 0 to 1, roughly; degree <= 3.
 double position_in_interval(const IsolatedRoot& root);
-// Of f != 0 in [0, 1], in increasing order.
+// Finds the roots of f != 0 in [0, 1], in increasing order.
 std::vector<IsolatedRoot> isolated_roots(const IntegerPolynomial& f);
-// The sign of g at the root, whose interval it may narrow. Ends always: zero is decided by common divisors.
+// Returns the sign of g at the root, whose interval may narrow. It always ends: common divisors tell zero.
 int sign_at(const IntegerPolynomial& g, IsolatedRoot& root);
 
 }  // namespace onset

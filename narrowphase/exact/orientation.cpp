@@ -7,8 +7,7 @@
 namespace onset {
 namespace {
 
-// A number as a sum of doubles that do not overlap, smallest first (Shewchuk 1997). Exact as long as nothing
-// under- or overflows, which orientation() ensures by scaling.
+// A number as a sum of doubles that do not overlap, smallest first (Shewchuk 1997).
 using Expansion = std::vector<double>;
 
 void two_sum(double a, double b, double& sum, double& error) {
@@ -77,7 +76,7 @@ int orientation(const double* a, const double* b, const double* c, const double*
       if (p[i] != 0) smallest = std::min(smallest, std::fabs(p[i]));
     }
   if (largest == 0) return 0;
-  // The determinant's terms have bits down to (smallest * 2^-52)^3: keep them above 2^-1022.
+  // The determinant's terms have bits down to (smallest * 2^-52)^3, above 2^-1022 (docs/theory.md, §19).
   if (smallest < largest * 0x1p-280) return kUnknownSide;
   const double scale = std::ldexp(1.0, -std::ilogb(largest));
   Expansion m[3][3];

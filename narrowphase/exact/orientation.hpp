@@ -3,8 +3,7 @@
 
 namespace onset {
 
-// The sign of det[a - d, b - d, c - d] in exact arithmetic: +1, 0 or -1; or kUnknownSide where the
-// coordinates span so many binary orders that exact products would underflow.
+// Returns the exact sign of det[a - d, b - d, c - d]; kUnknownSide where products could underflow.
 inline constexpr int kUnknownSide = 2;
 int orientation(const double* a, const double* b, const double* c, const double* d);
 

@@ -10,14 +10,13 @@
 
 namespace onset {
 
-// Three doubles a point: v, f0, f1, f2 or a0, a1, b0, b1 at both ends of the motion. Finite.
+// Three finite doubles a point: v, f0, f1, f2 or a0, a1, b0, b1 at both ends of the motion.
 struct ExactPair {
   PairKind kind;
   const double* t0[4];
   const double* t1[4];
 };
 
-// vertices[0..3] of a motion.
 template <class Vertices>
 ExactPair exact_pair(PairKind kind, const Motion& motion, const Vertices& vertices) {
   ExactPair r{kind, {}, {}};
@@ -28,7 +27,6 @@ ExactPair exact_pair(PairKind kind, const Motion& motion, const Vertices& vertic
   return r;
 }
 
-// Whether neither primitive moves.
 inline bool rests(const ExactPair& pair) {
   for (int i = 0; i < 4; ++i)
     if (!std::equal(pair.t0[i], pair.t0[i] + 3, pair.t1[i])) return false;
@@ -37,8 +35,7 @@ inline bool rests(const ExactPair& pair) {
 
 enum class Answer { no, yes, unknown };
 
-// Contact iff q = U a + V b with (U, V) in the triangle U, V >= 0, U + V <= 1 (vertex-face) or in the unit
-// square (edge-edge): vectors at one time.
+// The pair touches iff q = U a + V b with U, V >= 0, U + V <= 1 (vertex-face) or U, V in [0, 1] (edge-edge).
 template <class C>
 struct RelativeVectors {
   std::array<C, 3> q, a, b;
@@ -49,7 +46,6 @@ std::array<C, 3> difference(const std::array<C, 3>& x, const std::array<C, 3>& y
   return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
 }
 
-// From the positions v, f0, f1, f2 or a0, a1, b0, b1.
 template <class C>
 RelativeVectors<C> relative_vectors(PairKind kind, const std::array<std::array<C, 3>, 4>& x) {
   if (kind == PairKind::vertex_face)
@@ -57,8 +53,8 @@ RelativeVectors<C> relative_vectors(PairKind kind, const std::array<std::array<C
   return {difference(x[2], x[0]), difference(x[1], x[0]), difference(x[2], x[3])};
 }
 
-// The boundary of the primitive {U a + V b}: the point q lies on it iff for a segment w x e = 0 and w.(e - w)
-// >= 0, e = 0 included. Where a and b are parallel the boundary is all of it.
+// A segment of the boundary of {U a + V b}, which q is on iff w x e = 0 and w.(e - w) >= 0 (docs/theory.md,
+// L39). Where a and b are parallel the boundary is all there is.
 template <class C>
 struct PointAndSegment {
   std::array<C, 3> w, e;

@@ -25,7 +25,7 @@ inline double double_from_bits(std::uint64_t b) {
   return x;
 }
 
-// t = numerator / 2^exponent for t in [0, 1], the fraction in lowest terms.
+// t = numerator / 2^exponent in lowest terms, for t in [0, 1].
 struct Dyadic {
   std::int64_t numerator;
   int exponent;
@@ -39,7 +39,7 @@ inline Dyadic to_dyadic(double t) {
   return e < 0 ? Dyadic{m << -e, 0} : Dyadic{m, e};
 }
 
-// The root of the cubic with Bernstein coefficients c in (0, 1), c[0] c[3] < 0, roughly.
+// Approximates the root in (0, 1) of the cubic with Bernstein coefficients c, c[0] c[3] < 0.
 inline double approximate_root(const double (&c)[4]) {
   const double c1 = 3 * (c[1] - c[0]), c2 = 3 * (c[0] - 2 * c[1] + c[2]),
                c3 = (c[3] - c[0]) - 3 * (c[2] - c[1]);
@@ -53,9 +53,8 @@ inline double approximate_root(const double (&c)[4]) {
   return s;
 }
 
-// Narrows (lo, hi), which encloses one root, to adjacent doubles. sign(t): the exact sign at t, in units of
-// that at lo; the sought root is where it turns negative. Starts from the guess and doubles its stride, so a
-// good guess takes three signs.
+// Narrows (lo, hi) around one root to adjacent doubles. sign(t) is exact, in units of that at lo: it turns
+// negative at the root. The stride doubles, so a good guess takes three signs.
 template <class Sign>
 DoubleBracket adjacent_doubles(double lo, double hi, double guess, Sign&& sign) {
   std::uint64_t a = double_bits(lo), b = double_bits(hi), stride = 1;

@@ -1,11 +1,9 @@
-// The search for a pair's first contact in integers of fixed width: decides all that is generic, and says so
-// where it does not.
+// The search for a pair's first contact in integers of fixed width, which decides all that is generic
+// (docs/theory.md, §15.3).
 //
-// f(t) = q.(a x b), a cubic, is zero at every contact. On an axis k with n_k != 0 (n = a x b), a root is a
-// contact iff the quadratics U = (q x b)_k, V = (a x q)_k and N - U - V (vertex-face) or N - U, N - V
-// (edge-edge), N = n_k, have N's sign or are zero. All are halved in time as Bernstein polynomials, whose
-// coefficients stay integers when each half is multiplied by 8 (cubic) or 4 (quadratic), until the
-// coefficients' signs decide.
+// At a root of f(t) = q.(a x b), where N = (a x b)_k != 0, contact needs N's sign or 0 of U = (q x b)_k, V =
+// (a x q)_k and N - U - V (vertex-face) or N - U, N - V (edge-edge) (L38). Bernstein coefficients are halved
+// in time, multiplied by 8 (cubic) or 4 (quadratic) to stay integers, until their signs decide.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +14,21 @@
 
 namespace onset {
 
-// Where the first contact is: at k / 2^depth, or at f's only root in the open interval from there to (k + 1)
-// / 2^depth, at whose ends f has opposite signs.
+// The first contact is at k / 2^depth (exact), or at f's only root in the open interval [k, k + 1] / 2^depth,
+// at whose ends f has opposite signs.
 struct ContactInterval {
   Answer answer = Answer::unknown;
   std::uint64_t k = 0;
   int depth = 0;
   bool exact = false;
-  bool zoomed = false;    // unknown although f's root is known to the last bit: wider integers will not help
-  bool coplanar = false;  // unknown since f = 0 for all t, and no contact at t = 0
+  // Unknown although f's root is known to the last bit: wider integers do not help.
+  bool zoomed = false;
+  // Unknown since f = 0 for all t, and no contact at t = 0.
+  bool coplanar = false;
 };
 
-// N: limbs that f at a double takes. C: coordinates of q, a, b, below 2^c. M: products of two, 2^(2c + 2). T:
-// f, 2^(3c + 5 + 3 depth).
+// N limbs hold f at a double, C the coordinates of q, a, b, below 2^c, M products of two, 2^(2c + 2), T f,
+// 2^(3c + 5 + 3 depth).
 template <int N, class C, class M, class T>
 class ExactSearch {
  public:
@@ -49,10 +49,10 @@ class ExactSearch {
     found_.answer = inside;
     return found_;
   }
-  const T (&cubic() const)[4] { return f_; }  // Bernstein coefficients on [0, 1], up to a positive factor
+  const T (&cubic() const)[4] { return f_; }  // Bernstein coefficients, up to a factor > 0
 
  private:
-  static constexpr int kZoom = 10;       // deeper than this, where f has one root it is found to the last bit
+  static constexpr int kZoom = 10;       // from this depth a single root is found to the last bit
   static constexpr int kQuadratics = 5;  // N, then what must have its sign
   struct Slot {
     T f[4];
@@ -71,7 +71,7 @@ class ExactSearch {
     return T(u[0]) * T(v[0]) + T(u[1]) * T(v[1]) + T(u[2]) * T(v[2]);
   }
 
-  // f_i are three times the Bernstein coefficients of f.
+  // Sets f_ to three times the Bernstein coefficients of f.
   Normal set_cubic() {
     const Normal n{exact_cross<M>(r0_.a, r0_.b),
                    sum(exact_cross<M>(r0_.a, r1_.b), exact_cross<M>(r1_.a, r0_.b)),
@@ -84,7 +84,7 @@ class ExactSearch {
     return n;
   }
 
-  // Twice the Bernstein coefficients of the axis-k component of u x v.
+  // Sets g to twice the Bernstein coefficients of component k of u x v.
   static void set_quadratic(int k, const std::array<C, 3> (&u)[2], const std::array<C, 3> (&v)[2],
                             T (&g)[3]) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -95,7 +95,6 @@ class ExactSearch {
     g[2] = last + last;
   }
 
-  // The axis on which n is largest half-way.
   static int widest_axis(const Normal& n) {
     int k = 0;
     double largest = -1;
@@ -124,12 +123,11 @@ class ExactSearch {
     if (kind_ == PairKind::vertex_face) s.open[4] = false;
   }
 
-  // No root in the open interval: no sign changes and not all zero.
   template <int D>
   static bool has_no_root(const T (&c)[D]) {
     return definite_sign(c) != 0;
   }
-  // +1, -1: that sign in the open interval. 0: not certain, or zero throughout.
+  // Returns the sign in the open interval; 0: not certain, or zero throughout.
   template <int D>
   static int definite_sign(const T (&c)[D]) {
     bool positive = false, negative = false;
@@ -144,7 +142,7 @@ class ExactSearch {
     return sign_of(c[0]) == 0 && sign_of(c[1]) == 0 && sign_of(c[2]) == 0;
   }
 
-  // Descartes: exactly one root in the open interval, f not zero at its ends.
+  // Tells, by Descartes, whether f has exactly one root in the open interval and is not zero at its ends.
   static bool has_one_root(const T (&f)[4]) {
     if (sign_of(f[0]) * sign_of(f[3]) >= 0) return false;
     int changes = 0, last = sign_of(f[0]);
@@ -153,7 +151,8 @@ class ExactSearch {
     return changes == 1;
   }
 
-  // Closes what has N's sign throughout; true where something has the other: no contact in the open interval.
+  // Closes what has N's sign throughout. True: something has the other, so there is no contact in the open
+  // interval.
   bool outside(Slot& s) const {
     if (s.sign == 0) s.sign = definite_sign(s.g[0]);
     if (s.sign == 0) return false;
@@ -172,7 +171,7 @@ class ExactSearch {
     return true;
   }
 
-  // At the slot's first time, where f = 0.
+  // Decides the slot's first time, where f = 0.
   static Answer touches_at_start(const Slot& s) {
     const int sign = s.sign != 0 && !s.open[0] && sign_of(s.g[0][0]) != 0 ? s.sign : sign_of(s.g[0][0]);
     if (sign == 0) return Answer::unknown;
@@ -203,7 +202,7 @@ class ExactSearch {
     }
   }
 
-  // First time and open interval of [k, k + 1] / 2^depth.
+  // Decides the first time and the open interval of [k, k + 1] / 2^depth.
   Answer visit(Slot& s, std::uint64_t k, int depth) {
     if (depth > 0 && sign_of(s.f[0]) == 0) {
       const Answer start = touches_at_start(s);
@@ -228,25 +227,25 @@ class ExactSearch {
     return left != Answer::no ? left : visit(r, 2 * k + 1, depth + 1);
   }
 
-  // f has one root in the slot: closes what is zero there, which counts as inside.
+  // Closes what is zero at f's one root, which counts as inside.
   void close_zeros(Slot& s, std::uint64_t k, int depth) const {
     for (int i = 1; i < kQuadratics; ++i)
       if (s.open[i] && vanishes(whole_.g[i], k, depth, sign_of(s.g[i][0]) * sign_of(s.g[i][2]) < 0))
         s.open[i] = false;
   }
-  // false: no, or too wide to know.
+  // False: no, or too wide to know.
   bool vanishes(const T (&g)[3], std::uint64_t k, int depth, bool changes_sign) const {
     using Widths = std::conditional_t<sizeof(T) <= 32, NarrowCommonRoot, WideCommonRoot>;
     return Widths::fit((cubic_bits_ - 5) / 3) && vanishes_at_root(Widths(), f_, g, k, depth, changes_sign);
   }
 
-  // Twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
+  // Returns twice the polarised quadratic at x / 2^e, x' / 2^e, times 4^e.
   static Wide<N> polarised(const T (&g)[3], const Wide<N>& x, const Wide<N>& x1, const Wide<N>& one) {
     const Wide<N> y = one - x, y1 = one - x1;
     return Wide<N>(g[0]) * (y * y1) + Wide<N>(g[1]) * (x * y1 + x1 * y) + Wide<N>(g[2]) * (x * x1);
   }
 
-  // f has one root in the slot, N a sign: the rest looked at between the adjacent doubles around the root.
+  // Decides the rest between the adjacent doubles around f's one root, where N has a sign.
   Answer zoom(const Slot& s, std::uint64_t k, int depth) {
     if (inside(s)) {
       found_ = {Answer::yes, k, depth};
@@ -257,7 +256,7 @@ class ExactSearch {
     if (!t) return Answer::unknown;
     const Dyadic lo = to_dyadic(t->lo), hi = to_dyadic(t->hi);
     const int e = std::max(lo.exponent, hi.exponent);
-    // A quadratic is below 2^(2c + 5), and with x, y < 2^e what it gives below 2^(2c + 2e + 8).
+    // Polarised quadratics are below 2^(2c + 2e + 8).
     if (cubic_bits_ + 2 * e + 4 > 64 * N) return Answer::unknown;
     const Wide<N> one = shifted(Wide<N>(1), e), x = shifted(Wide<N>(lo.numerator), e - lo.exponent),
                   x1 = shifted(Wide<N>(hi.numerator), e - hi.exponent);

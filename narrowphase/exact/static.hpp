@@ -1,4 +1,4 @@
-// Do two primitives that are coplanar at one time touch then? Exact, for integers C with products in M.
+// Whether primitives that are coplanar at one time touch then: exact, for integers C with products in M.
 #pragma once
 
 #include "narrowphase/exact/pair.hpp"
@@ -23,8 +23,8 @@ bool on_segment(const PointAndSegment<C>& s) {
   return sign_of(exact_dot<M>(s.w, difference(s.e, s.w))) >= 0;
 }
 
-// Given q.(a x b) = 0. With n = a x b != 0 on axis k, U n = q x b and V n = a x q hold on that axis alone.
-// Coordinates of q, a, b below 2^c: M holds 2^(2c + 3).
+// Given q.(a x b) = 0. With n = a x b != 0 on axis k, U n = q x b and V n = a x q hold on that axis alone
+// (docs/theory.md, L38). For coordinates of q, a, b below 2^c, M holds 2^(2c + 3).
 template <class M, class C>
 bool coplanar_touch(PairKind kind, const RelativeVectors<C>& r) {
   const std::array<M, 3> n = exact_cross<M>(r.a, r.b), u = exact_cross<M>(r.q, r.b),

@@ -12,8 +12,7 @@ namespace onset {
 __extension__ using Int128 = __int128;
 __extension__ using UInt128 = unsigned __int128;
 
-// Arithmetic is modulo 2^(64 N): whoever computes knows how large results can get and chooses N. Asserts tell where a sum, a
-// difference or a product is larger than that.
+// Arithmetic is modulo 2^(64 N): callers know how large results can get and choose N.
 template <int N>
 struct Wide {
   std::uint64_t limb[N];  // lowest first
@@ -89,7 +88,7 @@ struct Wide {
     }
     return r;
   }
-  // Numbers are mostly far smaller than their width: by magnitudes, as many limbs as they have.
+  // Numbers are mostly far smaller than their width: only limbs in use are multiplied.
   static Wide long_product(const Wide& a, const Wide& b) {
     const bool a_negative = a.limb[N - 1] >> 63, b_negative = b.limb[N - 1] >> 63;
     const Wide x = a_negative ? -a : a, y = b_negative ? -b : b;

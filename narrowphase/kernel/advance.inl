@@ -1,12 +1,12 @@
 // Kernel text: directional conservative advancement in double lanes.
 //
-// At time t take the direction that separates the hull of the corners best, certify as long a time as it, its linear
-// continuation, or the pair's own normal (a cubic) can, and go on from there. Stop rule, with D0 the certified excess of the distance
-// over d at t = 0: delta = max(min(tolerance, D0/4), 16 E7), every certificate demands d + delta/2, contact iff a witness
-// point shows a distance of at most d + delta. Hence toi is never late, the pair keeps d + delta/2 until toi, and a pair that
-// never loses 3/4 of its initial gap is never reported, whatever the tolerance.
+// From t the pair goes on as far as the best direction there, its linear continuation or the pair's own
+// normal can certify. With `apart` the certified excess of the distance over d at t = 0, delta =
+// max(min(tolerance, apart/4), 16 E7); certificates demand d + delta/2, and a contact is a witness within d +
+// delta. So toi is never late, and a pair that never loses 3/4 of its initial gap is never reported, unless
+// 16 E7 is more than a quarter of it (docs/theory.md, T1).
 
-// What is seen at time t: the best direction and an upper bound of the distance.
+// Looks at time t: finds the best direction and an upper bound of the distance.
 template <class V, int K>
 inline void closest_direction(const State<V, K>& s, V t, bool maximum_norm, V (&w)[3], V& dist) {
   V c[K][3], e1[3], e2[3], f[3], shortest;
@@ -21,12 +21,11 @@ inline void closest_direction(const State<V, K>& s, V t, bool maximum_norm, V (&
     interior_point(c, e1, e2, f);
     shortest = sqrt(min(dot(f, f), nearest.f2));
   }
-  // A witness F(t, u, v) evaluated from the corners errs by at most 10u R per axis (lerp 1 + 3, two convex sums 3 each), so
-  // its length by 10u rho; 16u covers the square root and sums.
+  // A witness errs by at most 10u rho; 16u covers the square root and sums (docs/theory.md, L16).
   dist = shortest * V::all(1 + 0x1p-50) + V::all(16 * kU) * s.rho;
 }
 
-// The time until which the direction w at t, held fixed, certifies; and its products with the corners.
+// Certifies with the direction w at t, held fixed; g0 and g1 are its products with the corners.
 template <class V, int K>
 inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm, V (&g0)[K], V (&g1)[K]) {
   for (int k = 0; k < K; ++k) g0[k] = dot(w, s.c[0][k]), g1[k] = dot(w, s.c[1][k]);
@@ -34,9 +33,9 @@ inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm,
   return fixed_certificate(g0, g1, thr, s.t);
 }
 
-// The same with the direction turning on as it did since the last time: w(s) from w at t to w_b at tb, |w_b| bounded by the
-// choice of tb. phi_k = w(s).c_k(s) is a quadratic with Bernstein coefficients b0, b1, b2, each within 8u max(|w|, |w_b|) rho; the
-// quadratic of the least over all corners is below every phi_k, as no Bernstein polynomial is negative.
+// Certifies with a direction that turns on as it did since the last time, from w at t to w_b at tb, whose
+// choice bounds |w_b|. The quadratic of the corners' least coefficients is below every w(s).c_k(s)
+// (docs/theory.md, L11).
 template <class V, int K>
 inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm, const V (&g0)[K], const V (&g1)[K]) {
   V turned[3], wb[3];
@@ -68,8 +67,8 @@ inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm
   return certified<V>(turning, select(reached >= one<V>(), V::all(2), reached));
 }
 
-// The same with the pair's own normal n(s): one cubic for all corners. A hair before its root, where that is found, its
-// Bernstein coefficients are usually all positive, which takes a contact to its time in one step.
+// Certifies with the pair's own normal, one cubic for all corners. A hair before its root its coefficients
+// are usually positive, which takes a contact to its time in one step (docs/theory.md, L15).
 template <class V, int K>
 inline V certify_normal(const State<V, K>& s) {
   const V margin = (s.f_error + separation_wanted(s) * s.n_largest) * V::all(1 + 0x1p-48);
@@ -88,7 +87,7 @@ inline V certify_normal(const State<V, K>& s) {
   return certified<V>(progress, select(whole, V::all(2), reached));
 }
 
-// One check: decides lanes in contact, moves the others on. Returns the masks of contact and of lanes without progress.
+// Makes one check: decides lanes in contact and moves the others on.
 template <class V, int K>
 struct Check {
   typename V::Mask contact, stuck;
@@ -126,7 +125,7 @@ inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResul
   r.touched_by = 2;
 }
 
-// The verdict of each lane after a check, or -1 to go on.
+// A verdict of -1 means that the lane goes on.
 template <int K>
 inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const KernelPairs& pairs, int (&verdict)[4]) {
   const int contact = bits(check.contact), stuck = bits(check.stuck);
@@ -142,8 +141,8 @@ inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const Kernel
   }
 }
 
-// What each lane keeps beyond d of its gap, which is between `apart` and dist - d (paper, section 7.2: d = p d_i). `unsure` gets
-// the lanes whose gap has no room for all of it, or whose two bounds differ by more than 2^-10: they are decided with more care.
+// Returns what each lane keeps beyond d of its gap, which is between `apart` and dist - d (paper, section
+// 7.2: d = p d_i). Lanes without room for it, or whose bounds differ by more than 2^-10, become `unsure`.
 template <int K>
 inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4, K>& s, D4 dist, D4 apart,
                   D4::Mask& unsure) {
@@ -162,7 +161,7 @@ inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4
   return select(apart > zero<V>(), min(most, wanted), zero<V>());
 }
 
-// The first check, at t = 0, of four pairs: fixes delta, finds pairs that start within d.
+// Makes the first check, at t = 0: fixes delta and finds the pairs that start within d.
 template <int K>
 inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4, K>& s, int (&verdict)[4]) {
   using V = D4;
@@ -170,7 +169,7 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   V w[3], dist;
   closest_direction(s, s.t, maximum_norm, w, dist);
   const V e7 = V::all(7.25 * kU) * s.rho;
-  // (w.c - error) / |w|* bounds the distance from below; |w|* <= (1 + 5u) for the Euclidean norm.
+  // (w.c - error) / |w|*, with the dual norm, is a lower bound of the distance (docs/theory.md, L17).
   V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
   auto unsure = apart <= zero<V>();
   if (pairs.gap_share > 0 || pairs.storing > 0) {
@@ -180,7 +179,8 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   }
   s.delta = max(min(s.delta, V::all(0.25) * apart), V::all(16) * e7);
   const Check<V, K> check = advance(s, w, dist, maximum_norm, true);
-  // Never a zero from a start that is apart: where the full demand of d + delta/2 certifies nothing, d alone does.
+  // A start that is apart never gets 0: where d + delta/2 certifies nothing, d alone does (docs/theory.md,
+  // T2).
   const auto held = check.contact | check.stuck;
   if (bits(held) != 0) {
     V g0[K], g1[K];
@@ -192,14 +192,13 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   const int initial = bits(unsure) | ~bits(apart > zero<V>());
   const int moved = bits(s.t > zero<V>());
   for (int l = 0; l < 4; ++l) {
-    // Near contact at 0, yet certified until later: to be looked at there, if there is a check left.
+    // A pair near contact at 0 that is certified until later is looked at there, if a check is left.
     if (verdict[l] == int(Verdict::contact) && (moved >> l & 1))
       verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::max_checks);
     if (initial >> l & 1) verdict[l] = int(Verdict::initial);
   }
 }
 
-// Four pairs where they stopped.
 template <int K>
 inline void restore(const KernelResume* resume, const int (&positions)[4], State<D4, K>& s) {
   double t[4], separation[4], delta[4], slow[4], checks[4];
@@ -214,7 +213,6 @@ inline void restore(const KernelResume* resume, const int (&positions)[4], State
   s.checks = D4::load(checks);
 }
 
-// One check of each lane: its verdict, or -1 to go on.
 template <int K>
 inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) {
   D4 w[3], dist;
@@ -222,7 +220,7 @@ inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) 
   judge(s, advance(s, w, dist, pairs.maximum_norm, false), pairs, verdict);
 }
 
-// Up to four pairs set up and checked twice, which decides most of them; `waiting` marks those that go on.
+// Pairs that were set up and checked twice, which decides most; `waiting` marks those that go on.
 template <int K>
 struct Pending {
   State<D4, K> state;
@@ -262,7 +260,7 @@ inline void move_lane(const State<D4, K>& from, int from_lane, State<D4, K>& to,
   for (int i = 0; i < kFields<K>; ++i) target[4 * i] = source[4 * i];
 }
 
-// Lanes are independent: a pair's result does not depend on which others share the registers.
+// Lanes are independent: a result does not depend on which pairs share the registers.
 template <int K>
 inline void advance_all(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
                         KernelResult* results) {

@@ -1,23 +1,20 @@
-// Kernel text: how long a direction certifies separation. Every formula carries its error bound; u is the unit roundoff.
+// Kernel text: how long a direction certifies separation.
 //
-// Notation: R_a bounds |c_a| of every computed corner at both ends, rho = |R| rounded up, so |w_a| R_a summed is at most
-// |w| rho. A computed corner has relative error u, so a dot product of it errs by (1 + 3) u |w| rho = 4u; a lerp in time adds
-// 3u (E7); a Bernstein coefficient of a moving direction adds u more (E8); each with factor 1.0625 for second-order terms,
-// for rho's own rounding and for |w| <= 1 + 5u. Corners are scaled so that the largest component is in [1, 2): a product that
-// underflows errs by less than 2^-1074, far below u rho, and is covered by the same factor.
+// In units of u rho (docs/theory.md, §1.2) a product w.c_k errs by at most E4 = 4.25 for a fixed w at every
+// time (4 roundings; L4), E7 = 7.25 where corners are mixed at t (7; L5), E8 = 8.25 max(|w_b|, 1) in a
+// coefficient of a turning direction (8; L6). The factors 1.0625, 1.036 and 1.031 cover second order, |w| <=
+// 1 + 5u, rho's rounding, and underflow, as the largest corner component is in [1, 2).
 
 template <class V>
 inline V certified(typename V::Mask ok, V time) {
   return select(ok, time, V::all(-1));
 }
 
-// A direction constant on [t, t'], products g0 = w.c_k(0) and g1 = w.c_k(1) with threshold thr = E4 + (separation demanded).
-// The exact product is within E4 of (1-s) g0 + s g1 for every s in [0,1], so where that line exceeds thr the pair is apart.
-// x = g0 - thr and y = g1 - thr have exact signs and relative error u, x - y sums two non-negative numbers when the signs
-// differ, so each root x / (x - y) is known within 4u. The extreme roots are picked by products across, which neither under- nor
-// overflow (thr > 2^-52, so a non-zero x or y is above 2^-106), each choice within 2u: with the division and up to four
-// choices within 14u; 2^-49 = 16u is taken off. Returns the time until which [t, .] is certified, 2 for the whole rest, or
-// -1. NaN fails every comparison and certifies nothing.
+// Returns the time until which a direction held fixed certifies [t, .]: 2 for the whole rest, -1 for nothing
+// or NaN. g0 = w.c_k(0), g1 = w.c_k(1), and thr = E4 + the separation demanded (docs/theory.md, L9).
+//
+// Roots are picked by products across, and 2^-49 = 16u covers their 13u. The products do not underflow: thr >
+// 2^-52, so a non-zero x or y is above 2^-106; for pairs of subnormal size these are 2^-102 and 2^-157.
 template <class V, int K>
 inline V fixed_certificate(const V (&g0)[K], const V (&g1)[K], V thr, V t) {
   V exit = V::all(2), exit_over = one<V>(), enter = zero<V>(), enter_over = one<V>();
@@ -40,13 +37,12 @@ inline V fixed_certificate(const V (&g0)[K], const V (&g1)[K], V thr, V t) {
   return certified<V>(valid & (at_start | (since <= t)) & (t < until), until);
 }
 
-// The first root of the quadratic with Bernstein coefficients x0, x1, x2 on L in [0,1], rounded down so that the quadratic is
-// positive on the closed interval [0, L]; 1 when it is positive throughout; 0 when nothing is certain.
+// Returns an L such that the quadratic with Bernstein coefficients x0, x1, x2 is positive on the closed
+// interval [0, L]: 1 only where it is positive throughout, 0 where nothing is certain (docs/theory.md, L12).
 //
-// Positive on [0,1] iff x0, x2 > 0 and x1 > -sqrt(x0 x2). s = x1^2 and q = x0 x2 are computed within 6u relative, so demanding
-// s < q (1 - 2^-10) covers it in float and double; q >= tiny excludes underflow. The root, with r = L/(1-L), solves
-// x0 + 2 x1 r + x2 r^2 = 0: 16u s under the square root makes it an over-estimate where x1 < 0; where x1 >= 0 all terms
-// are sums of non-negative numbers. 2^-48 covers the remaining 8 roundings.
+// It is positive throughout iff x0, x2 > 0 and x1 > -sqrt(x0 x2); 2^-10 covers rounding in that, in float
+// too. Where x1 < 0, 16u s makes the discriminant an over-estimate, so that L errs downwards. 2^-48 covers
+// the other 11 roundings.
 template <class V>
 inline V first_root(V x0, V x1, V x2) {
   const V tiny = V::all(0x1p-960), s = x1 * x1, q = x0 * x2;
@@ -76,9 +72,8 @@ inline void left_part(V (&f)[4], V t) {
     for (int i = 3; i >= level; --i) f[i] = lerp(f[i - 1], f[i], t);
 }
 
-// How far, as a fraction of its interval, a cubic with Bernstein coefficients x certainly stays positive: it is above the
-// steepest chord from x_0 to a point (i/3, x_i), since its value at s is the sum of B_i(s) x_i with the sum of B_i(s) i/3 = s.
-// 6 roundings: 2^-49 is taken off. 1 for the whole, 0 for nothing.
+// Returns the fraction of its interval on which a cubic is certainly positive: it is above its steepest chord
+// (docs/theory.md, L3(g)). 2^-49 covers 6 roundings.
 template <class V>
 inline V chord_step(const V (&x)[4]) {
   const V steepest = max(max(x[0] - x[1], V::all(0.5) * (x[0] - x[2])), V::all(1.0 / 3) * (x[0] - x[3]));
@@ -88,8 +83,8 @@ inline V chord_step(const V (&x)[4]) {
   return select(finite & (x[0] > zero<V>()), select(whole, one<V>(), crossing), zero<V>());
 }
 
-// Halley's method for the root of that cubic, from `start` on: any result is safe to use. Three steps do what five of Newton's
-// do, and the chain of divisions is shorter.
+// Approximates the root of that cubic; any result is safe. Three Halley steps do what five of Newton's do, in
+// a shorter chain of divisions.
 constexpr int kHalleySteps = 3;
 template <class V>
 inline V root_near(const V (&x)[4], V start) {

@@ -1,27 +1,20 @@
-// Kernel text: a proof that a contact is real, in double lanes.
+// Kernel text: a proof that a contact is real, in double lanes (docs/theory.md, §14).
 //
-// The pair touches at t iff q = U a + V b with (U, V) in the triangle (vertex-face) or square (edge-edge); q, a, b relative
-// vectors, linear in t, Mq, Ma, Mb bounds of their components at both ends. f = q.(a x b) is zero then. Two times lo < hi in
-// [0, 1] at which f certainly has opposite signs enclose a root; for any fixed vector n, at that root
-// U = n.(q x b) / N and V = n.(a x q) / N with N = n.(a x b), so where those three, N - U - V (vertex-face) or N - U, N - V
-// (edge-edge) are positive throughout [lo, hi], the root is a contact.
+// The pair touches iff q = U a + V b with (U, V) in the triangle or square. Where f = q.(a x b) has opposite
+// signs at lo < hi, and n.(q x b), n.(a x q) and what they leave of n.(a x b) are positive on [lo, hi] for a
+// fixed n, f's root there is a contact (L34).
 //
-// F = 3 f has Bernstein coefficients 3 q0.n00, q1.n00 + q0.m, q0.n11 + q1.m, 3 q1.n11 with n_ij = a(t_i) x b(t_j),
-// m = n01 + n10. In units of u Mq Ma Mb: a component of n_ij has size 2 and error 2 (2 inputs + 1) + 2 = 8; of m size 4 and
-// error 8 + 8 + 4 = 20; q.n_ij has size 6 and error 3 (8 + 2 + 2) + 2 * 6 = 48; q.m size 12, error 3 (20 + 4 + 4) + 2 * 12 =
-// 108. So a coefficient has size at most 18 and error at most max(3 * 48 + 18, 48 + 108 + 18) = 174. Three lerps of error
-// 3 * 18 make it 336; 350 covers second order. 2^-900 covers products that underflow.
+// Mq, Ma, Mb bound the components of q, a, b. F = 3 f errs by 336u Mq Ma Mb (L35); 350 covers second order,
+// 2^-900 underflow.
 constexpr double kCubicError = 350 * kU;
-// Inside functions at the middle of [lo, hi]: a component of q has error 1 (end) + 3 (lerp) = 4, a product of two 9, two of
-// them and the difference of size 2 make 20, n's product 2 more, two sums 2 * 2: 26 for each unit of |n|_1; 32 covers second
-// order. Away from the middle by w a component of q moves by at most 2 w Mq: a product by 4w + 4w^2, two of them by
-// 8w (1 + w) < 8.2 w for w <= 1/64.
+// Inside functions carry 26 roundings of |n|_1 in the middle, 30 with the subtractions of N - U - V; 32
+// covers second order. Within w <= 1/64 they change by at most 8.25 w (L36).
 constexpr double kInsideError = 32 * kU, kInsideSlope = 8.25;
 
 template <class V>
 struct RelativeMotion {
   V q[2][3], a[2][3], b[2][3];
-  V scale;  // a power of two
+  V scale;
 };
 
 template <int K>
@@ -54,7 +47,6 @@ inline V largest_of(const V (&x)[2][3]) {
   return m;
 }
 
-// Bernstein coefficients of F on [0, 1].
 template <class V>
 inline void set_contact_cubic(const RelativeMotion<V>& r, V (&f)[4]) {
   V n00[3], n01[3], n10[3], n11[3], m[3];
@@ -74,7 +66,7 @@ inline V cubic_at(const V (&f)[4], V t) {
   return lerp(lerp(a, b, t), lerp(b, c, t), t);
 }
 
-// Newton's method from t on, where advancement left the pair: the root and F' there. No accuracy is needed.
+// Guesses the root after t and F' there by Newton's method; no proof needs them to be accurate.
 template <class V>
 inline void first_guess(const V (&f)[4], V t, V& root, V& slope) {
   V x[4] = {f[0], f[1], f[2], f[3]};
@@ -97,7 +89,7 @@ inline V underflow() {
   return V::all(0x1p-900);
 }
 
-// U, V and N for the vector n = a x b at a time, and the bounds of their errors as those at any time within `width`.
+// U N, V N and N for n = a x b at a time, and their error bounds at all times within `width` of it.
 template <class V>
 struct InsideFunctions {
   V n[3], u, v, big_n, eu, ev, en;
@@ -119,7 +111,7 @@ inline void set_inside(const RelativeMotion<V>& r, V time, V width, V mq, V ma, 
   out.en = each * (ma * mb) + underflow<V>();
 }
 
-// The time by which four pairs have certainly touched, 2 where that is not certain; t: they are apart before it.
+// Returns the time by which four pairs, apart before t, have certainly touched; 2: not certain.
 template <int K>
 inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
   using V = D4;

@@ -1,11 +1,9 @@
-// Kernel text: contact points and normal of ordinary contacts (distance/contact_geometry.hpp), in double lanes: closest points certainly inside
-// both primitives, a resolved cross product, a gap and a motion along it that are more than rounding. Others are left to the scalar
-// code.
+// Kernel text: geometry of ordinary contacts, in double lanes: closest points are certainly inside, and the
+// cross product, the gap and the motion along it are more than rounding. Others are left to scalar code
+// (distance/contact_geometry.hpp).
 //
-// q, a, b relative to the pair, linear in t: p1 - p2 is q - U a - V b (vertex-face), or minus that (edge-edge). Each difference is
-// rounded once and mixed with 3u: 4u of its size; p1 - p2 is a sum of three: below 12u (|q| + 2 longest), and by as much the foot is
-// off within the plane. Four times that tells a side, of the plane or of an edge. 2^30 times the edges' noise across the longer one
-// leaves a normal good to 2^-30.
+// p1 - p2 = +-(q - U a - V b) errs by less than 12u (|q| + 2 longest); four times that tells sides apart. A
+// width of 2^30 times the edges' noise leaves a normal good to 2^-30 (docs/theory.md, §16.4).
 
 template <class V>
 inline V squared_size(const V (&x)[2][3]) {
@@ -14,7 +12,7 @@ inline V squared_size(const V (&x)[2][3]) {
 
 template <class V>
 struct Geometry {
-  V u, v, normal[3], gap, speed;  // gap and speed scaled; U and V multiples of 2^-52
+  V u, v, normal[3], gap, speed;  // gap and speed are scaled, u and v multiples of 2^-52
   typename V::Mask ordinary;
 };
 
@@ -29,7 +27,8 @@ inline void geometry_at(const RelativeMotion<V>& r, V t, Geometry<V>& f) {
   const V longest = sqrt(max(squared_size(r.a), squared_size(r.b)));
   const V edge_noise = V::all(4 * kU) * longest, noise = V::all(12 * kU) * (sqrt(squared_size(r.q)) + (longest + longest));
 
-  // The plane of a and b from the longer one; the second round takes back what the first lost to a thin primitive.
+  // The plane is built from the longer edge; the second round takes back what the first lost to a thin
+  // primitive.
   const auto swapped = dot(b, b) > dot(a, a);
   for (int i = 0; i < 3; ++i) along[i] = select(swapped, b[i], a[i]), other[i] = select(swapped, a[i], b[i]);
   const V size = dot(along, along), share = dot(other, along) / size;
@@ -49,7 +48,7 @@ inline void geometry_at(const RelativeMotion<V>& r, V t, Geometry<V>& f) {
   }
   f.u = (one<V>() + select(swapped, y, x)) - one<V>();
   f.v = (one<V>() + select(swapped, x, y)) - one<V>();
-  // The foot is at least half a coordinate times the width away from the side where that coordinate is 0.
+  // The foot is at least half a coordinate times the width away from that coordinate's side.
   const V to_side = K == 3 ? min((one<V>() - f.u) - f.v, min(f.u, f.v))
                            : min(min(f.u, f.v), min(one<V>() - f.u, one<V>() - f.v));
   const V certain = V::all(4) * noise;

@@ -1,9 +1,8 @@
-// Kernel text: the culls, in single precision, eight pairs at a time.
+// Kernel text: the culls, in single precision, eight pairs at a time; u = 2^-24 here (docs/theory.md, §12).
 //
-// Corner differences are formed in double, scaled by one power of two for the scene and rounded to float once: relative error
-// u(1 + 2^-28), u = 2^-24, as for a corner in the double certificates. Hence a dot product errs by 4u |w| rho and a
-// Bernstein coefficient on [0, 1] by 5u, on half of it, with a corner averaged, by 6u; 7u covers second order and |w| <= 1 + 5u.
-// Underflow (2^-149 each) is covered by an absolute 2^-140. d is rounded up by 2^-22.
+// Corner differences are formed in double, scaled alike for the scene and rounded to float once. A Bernstein
+// coefficient errs by 6u |w| rho; 7u covers second order and |w| <= 1 + 5u, 2^-140 underflow (L23). d is
+// rounded up by 2^-22 (L24).
 
 template <int K>
 struct FloatPairs {
@@ -12,16 +11,15 @@ struct FloatPairs {
   F8 error;       // bound of a coefficient's error
 };
 
-// Only [0, t_max] matters: the far end moves there. Certified to stay beyond d + reach until then, a pair cannot be reported
-// earlier unless it spends its checks, so the limiting pair is the same as without t_max. (In double the lerp's 3u is far
-// below float's rounding; rounded_corners counts its own.)
+// Moves the far end to t_max. A pair beyond d + reach until then is not reported earlier unless it spends its
+// checks, so the limiting pair stays the same. In double the lerp's 3u is far below float's rounding.
 template <class V, int K>
 inline void cut_short(V (&c)[2][K][3], V t_max) {
   for (int k = 0; k < K; ++k)
     for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], t_max);
 }
 
-// Which pairs are in the lanes: those in a row, whose addresses need less arithmetic, or a list.
+// The rows in the lanes: consecutive ones, whose addresses need less arithmetic, or a list.
 struct InOrder {
   int first;
   int operator[](int lane) const { return first + lane; }
@@ -41,7 +39,6 @@ inline F8 float_separation(const KernelPairs& pairs, Rows rows) {
   return to_float(D4::load(of_pair), D4::load(of_pair + 4)) * F8::all(1 + 0x1p-22f);
 }
 
-// Upper bound, but for rounding, of |R|, R the largest components of corners.
 template <int K>
 inline F8 rho_of(const F8 (&c)[2][K][3]) {
   F8 R[3] = {zero<F8>(), zero<F8>(), zero<F8>()};
@@ -69,11 +66,9 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
   out.error = V::all(7 * 0x1p-24f) * rho_of(out.c) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
 
-// The same from rounded positions. The difference of two errs by what these do, and by u of itself in place of the rounding to
-// float above. A corner (1 - t) a + t b cut short at t_max t errs, with |t b| <= 2 rho for the rho of what is left, by 3u
-// more for t's own rounding to float, 5u for its terms and their sum, and u for b: 16u with the 7u above. t_max below 2^-126
-// is rounded by 2^-150 at most, perhaps to 0: that moves a corner by 2^-149 rho, which the second-order part of 16u has room for.
-// Whatever is added up then, the vertices' errors weigh no more than |w|.
+// Makes the same from rounded positions: a difference errs by what these do and rounds once. A corner that is
+// cut short errs by 10u rho, 2u of it t's own rounding, and a coefficient by 14u; 16u covers second order,
+// and a t_max below 2^-126 (docs/theory.md, L25).
 template <int K, class Rows>
 inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& out) {
   using V = F8;
@@ -95,8 +90,8 @@ inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& 
   out.error = (V::all((is_cut ? 16 : 7) * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
 
-// Whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: the Bernstein coefficients
-// of each corner's quadratic, less error and separation, satisfy x0, x2 > 0 and x1 > -sqrt(x0 x2) (first_root's proof).
+// Tells whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: for
+// each corner x0, x2 > 0 and x1 > -sqrt(x0 x2) (docs/theory.md, L12, L24).
 template <class V, int K>
 inline typename V::Mask separates(const V (&c0)[K][3], const V (&c1)[K][3], const V (&w0)[3], const V (&w1)[3], V m0, V m2) {
   const V half = V::all(0.5f), m1 = half * (m0 + m2) * V::all(1 + 0x1p-20f);
@@ -112,8 +107,8 @@ inline typename V::Mask separates(const V (&c0)[K][3], const V (&c1)[K][3], cons
   return apart;
 }
 
-// A direction near the closest one: any direction is safe, so plain clamped closest points do, without the care that
-// advancement takes. The origin's closest point on the parallelogram c0 + u e1 + v e2 ...
+// Any direction near the closest one is safe, so plain clamped closest points do: of the parallelogram c0 + u
+// e1 + v e2 ...
 template <class V>
 inline V clamp01(V x) {
   return min(max(x, zero<V>()), one<V>());
@@ -130,7 +125,7 @@ inline void cheap_direction(const V (&c)[4][3], V (&w)[3]) {
   u = clamp01((zero<V>() - (p + ab * v)) / max(aa, floor));
   for (int a = 0; a < 3; ++a) w[a] = (c[0][a] + u * e1[a]) + v * e2[a];
 }
-// ... and on the triangle: the normal where its foot is inside, else the closest point of the three sides.
+// ... and of the triangle: the normal where its foot is inside, else the closest point of the three sides.
 template <class V>
 inline V side_point(const V (&p)[3], const V (&q)[3], V (&f)[3]) {
   V e[3];
@@ -159,20 +154,19 @@ inline void cheap_direction(const V (&c)[3][3], V (&w)[3]) {
   for (int a = 0; a < 3; ++a) w[a] = select(inside, select(below, zero<V>() - n[a], n[a]), w[a]);
 }
 
-// What is demanded along w: error, separation, and an upper bound of the share of the initial gap that advancement keeps.
+// Returns what is demanded along w: error and d, which contains what is to be kept (docs/theory.md, L24).
 template <class V>
 inline V demand(const V (&w)[3], V d, V error, bool maximum_norm) {
   return (error + d * norm_factor(w, maximum_norm)) * V::all(1 + 0x1p-19f);
 }
 template <class V, int K>
-inline V initial_gap(const V (&c)[K][3], V error) {  // the point found errs by less than 10u rho, below twice `error`
+inline V initial_gap(const V (&c)[K][3], V error) {  // the point errs by < 10u rho < 2 error
   return (sqrt(nearest_on_boundary(c).f2) + V::all(2) * error) * V::all(1 + 0x1p-19f);
 }
 
-// Whether the pair's boxes, moving linearly from end to end, are apart on some axis at every time, not always the same one:
-// long steps past one another. On axis a the pair is within reach m = d + error only where (1-t) s0 + t s1 >= 0, with
-// s = max_k c_k + m, and with s = m - min_k c_k; between two ends of opposite sign that begins or ends at s0 / (s0 - s1). Signs are
-// exact, each root is known within 6u: 2^-20 = 16u is taken off.
+// Tells whether the pair's boxes, moving linearly, are apart at every time on one axis or another. On an axis
+// the pair is within m = d + error only where the line from s0 to s1 is not negative, for s = max_k c_k + m
+// and s = m - min_k c_k. Roots are known within 4u; 2^-20 = 16u is taken off (docs/theory.md, L26).
 template <int K>
 inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
   using V = F8;
@@ -194,7 +188,7 @@ inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F
   return begin * V::all(1 - 0x1p-20f) > end * V::all(1 + 0x1p-20f);
 }
 
-// The mask of pairs that are apart throughout. refined: in two halves, each with its own turning direction.
+// Returns the mask of pairs that are apart; `refined` tries two halves, each with its own turning direction.
 template <int K, class Rows>
 inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
   using V = F8;
@@ -220,7 +214,6 @@ inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
               moving_boxes_apart(s.c[0], s.c[1], d + s.error));
 }
 
-// Writes the first `valid` of eight rows but those that are apart; returns their number.
 template <class Rows>
 inline int write_survivors(int apart, Rows rows, int valid, int* out) {
   int survivors = 0;
@@ -231,7 +224,7 @@ inline int write_survivors(int apart, Rows rows, int valid, int* out) {
   return survivors;
 }
 
-// Fewer than eight: the last row is repeated.
+// Fills the lanes of fewer than eight rows with the last one.
 template <int K, class Rows>
 inline int cull_few(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
   int here[8];

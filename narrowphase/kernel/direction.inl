@@ -1,7 +1,6 @@
-// Kernel text: the closest point of conv{c_k} to the origin, and the direction that separates it best.
-//
-// The corners of a pair at one time: vertex-face c_j = p - v_j (K = 3), edge-edge c_2i+j = a_i - b_j (K = 4). F(t, ., .)
-// (paper, eq. 1 and 2) fills their convex hull. Any direction is safe to use: quality only costs steps.
+// Kernel text: the closest point of the hull of a pair's corners c_j = p - v_j (K = 3) or c_2i+j = a_i - b_j
+// (K = 4) to the origin, and the direction that separates it best. F(t, ., .) fills the hull (paper, eq. 1
+// and 2). Any direction is safe: a poor one costs steps (docs/theory.md, §4).
 
 template <class V>
 struct Thresholds;  // smallest and largest square that may be normalised without under- or overflow
@@ -23,8 +22,7 @@ inline V one() {
   return V::all(1);
 }
 
-// w / |w|, or 0 where |w| is out of range. The result has |w| <= 1 + 5u: dot has relative error 3u, sqrt halves it and adds u,
-// the reciprocal and the product add u each.
+// Makes |w| <= 1 + 5u, or w = 0 where |w| is out of range (docs/theory.md, L7).
 template <class V>
 inline void normalise(V (&w)[3]) {
   const V ww = dot(w, w);
@@ -33,7 +31,6 @@ inline void normalise(V (&w)[3]) {
   for (V& x : w) x = x * inverse;
 }
 
-// The smallest product with a corner.
 template <class V, int K>
 inline V least(const V (&w)[3], const V (&c)[K][3]) {
   V r = dot(w, c[0]);
@@ -43,14 +40,13 @@ inline V least(const V (&w)[3], const V (&c)[K][3]) {
 
 template <class V>
 struct Nearest {
-  V f[3];        // closest point of the boundary segments to the origin
-  V f2;          // |f|^2
-  V e[3], ee;    // its segment and the square of its length
+  V f[3];                   // the closest point of the boundary to the origin
+  V f2;                     // |f|^2
+  V e[3], ee;               // its segment, and the square of that one's length
   typename V::Mask inside;  // strictly inside the segment
 };
 
-// The closest point of segment p q, measured from the nearer end: then the tiny gap of a nearby end is not lost in the rounding
-// of the far one.
+// The segment is measured from the nearer end, whose tiny gap then does not drown in the far end's rounding.
 template <class V>
 inline Nearest<V> nearest_on_segment(const V (&p)[3], V p2, const V (&q)[3], V q2) {
   Nearest<V> r;
@@ -100,7 +96,6 @@ inline Nearest<V> nearest_on_boundary(const V (&c)[3][3]) {  // the three sides 
   return r;
 }
 
-// The two edges that span the hull at c[0].
 template <class V>
 inline void spanning_edges(const V (&c)[4][3], V (&e1)[3], V (&e2)[3]) {
   for (int a = 0; a < 3; ++a) e1[a] = c[2][a] - c[0][a], e2[a] = c[1][a] - c[0][a];
@@ -110,13 +105,13 @@ inline void spanning_edges(const V (&c)[3][3], V (&e1)[3], V (&e2)[3]) {
   for (int a = 0; a < 3; ++a) e1[a] = c[1][a] - c[0][a], e2[a] = c[2][a] - c[0][a];
 }
 
-// Of the boundary direction and the hull's normal, the one with the larger margin min_k w.c_k: the closest direction is the one
-// of largest margin, so no inside test is needed. `nearest` comes from nearest_on_boundary.
+// Takes the boundary's direction or the hull's normal, whichever has the larger margin min_k w.c_k: no inside
+// test is needed.
 template <class V, int K>
 inline void best_direction(const V (&c)[K][3], const Nearest<V>& nearest, const V (&e1)[3], const V (&e2)[3], V (&w)[3]) {
   for (int a = 0; a < 3; ++a) w[a] = nearest.f[a];
-  // Polish: strictly inside a segment the direction is perpendicular to it. Twice, so that both far ends see a direction whose
-  // error is relative to the edge and not to the gap.
+  // Inside a segment w is made perpendicular to it twice, so that its error is relative to the edge and not
+  // to the gap.
   const V inverse = select(nearest.inside, one<V>() / select(nearest.inside, nearest.ee, one<V>()), zero<V>());
   for (int pass = 0; pass < 2; ++pass) {
     const V along = dot(w, nearest.e) * inverse;
@@ -137,8 +132,8 @@ inline void best_direction(const V (&c)[K][3], const Nearest<V>& nearest, const 
   for (int a = 0; a < 3; ++a) w[a] = select(normal_wins, n[a], w[a]);
 }
 
-// A point F(u, v) of the hull near its closest one when that is inside: an upper bound of the distance whatever the rounding of
-// u and v, evaluated convexly from the corners.
+// Finds a point near the closest one where that is inside: a convex mean of the corners, which bounds the
+// distance whatever the rounding of u and v.
 template <class V>
 inline void clamp_parameters(const V (&)[4][3], V& u, V& v) {
   u = min(max(u, zero<V>()), one<V>());

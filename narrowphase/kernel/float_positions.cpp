@@ -28,7 +28,7 @@ std::array<double, 3> middle_of(const Motion& motion) {
   return middle;
 }
 
-// y = (x - middle) scale errs by 2u of itself in double and by 2^-24 of itself, or 2^-150, in float.
+// y errs by 2u of itself in double and by 2^-24 of itself, or 2^-150, in float (docs/theory.md, L25).
 void round_row(const double* x, const std::array<double, 3>& middle, double scale, float* row) {
   double largest = 0;
   for (int end = 0; end < 2; ++end) {

@@ -1,12 +1,11 @@
 // Kernel text: from vertex records to corners in lanes.
 
-// A pair's four vertices at both ends, lane by lane, in model units.
 template <class V>
 struct Points {
   V p[2][4][3];  // [end][vertex][axis]
 };
 
-// Lane l holds the pair rows[l]. Rows past the end repeat the last one; their results are ignored.
+// Lane l holds the pair rows[l].
 template <class Rows>
 inline void gather(const KernelPairs& pairs, const Rows& rows, Points<D4>& out) {
   for (int i = 0; i < 4; ++i) {
@@ -28,7 +27,7 @@ inline void corners_of(const V (&p)[4][3], V (&c)[4][3]) {  // edge-edge
     for (int j = 0; j < 2; ++j)
       for (int a = 0; a < 3; ++a) c[2 * i + j][a] = p[i][a] - p[2 + j][a];
 }
-// The two edges whose cross product is the pair's normal; differences of positions, one rounding each.
+// The two edges whose cross product is the pair's normal, one rounding each.
 template <class V, int K>
 inline void edges_of(const V (&p)[4][3], V (&e1)[3], V (&e2)[3]) {
   for (int a = 0; a < 3; ++a) {

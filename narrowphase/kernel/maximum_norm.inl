@@ -1,11 +1,10 @@
-// Kernel text: the closest point and the best direction where distance is measured in the maximum norm.
+// Kernel text: the closest point and the best direction in the maximum norm.
 //
-// A direction w shows a distance of at least min_k w.c_k / |w|_1, and the best of them shows all of it (duality). It is a normal of
-// the hull less a cube (the separating axes of two polytopes): an axis, the hull's normal, or an edge of the hull
-// crossed with an axis. The closest point is that of a plane, along the diagonal that the signs of its normal choose, or it
-// lies on a side, where one component of f is zero, two are equal up to sign, or at an end.
+// The direction is an axis, the hull's normal, or an edge crossed with an axis (docs/theory.md, L8). The
+// closest point is where a diagonal meets the plane, or an end of a side, or where one component is zero or
+// two are equal up to sign.
 
-// Keeps w, in the sign that separates better, if its margin is the largest so far.
+// Keeps w, in the better sign, if its margin is the largest so far.
 template <class V, int K>
 inline void consider(const V (&c)[K][3], const V (&w)[3], V (&best)[3], V& margin) {
   V low = dot(w, c[0]), high = low;
@@ -33,7 +32,6 @@ inline void consider_side(const V (&c)[K][3], const V (&p)[3], const V (&q)[3], 
   }
 }
 
-// The least max_a |f_a| over the segment p q.
 template <class V>
 inline V largest_component_of(const V (&f)[3]) {
   return max(abs(f[0]), max(abs(f[1]), abs(f[2])));
@@ -74,12 +72,13 @@ inline void sides(const V (&c)[3][3], V (&w)[3], V& margin, V& least) {
   }
 }
 
-// Where the diagonal through the plane's closest point meets it, moved into the hull: r = s sign(n), s = n.c_0 / |n|_1.
+// Takes the point s sign(n), s = n.c_0 / |n|_1, where the diagonal that the normal's signs choose meets the
+// plane, and moves it into the hull.
 template <class V, int K>
 inline V least_inside(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3], const V (&n)[3]) {
   const V s = dot(n, c[0]) / ((abs(n[0]) + abs(n[1])) + abs(n[2]));
   V r[3], f[3];
-  for (int a = 0; a < 3; ++a)  // 0 where the normal has no part: any of [-s, s] will do
+  for (int a = 0; a < 3; ++a)  // where n[a] is 0, any of [-s, s] will do
     r[a] = select(n[a] < zero<V>(), zero<V>() - s, select(n[a] > zero<V>(), s, zero<V>())) - c[0][a];
   const V aa = dot(e1, e1), ab = dot(e1, e2), bb = dot(e2, e2), p = dot(e1, r), q = dot(e2, r);
   const V det = aa * bb - ab * ab;

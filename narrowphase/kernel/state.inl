@@ -1,12 +1,12 @@
-// Kernel text: what a lane of the advancement carries, and how it is set up.
+// Kernel text: the state of a lane, and how it is set up.
 
 
-// All that a lane carries. Lengths are scaled so that the largest corner component is in [1, 2).
+// Lengths are scaled so that the largest corner component is in [1, 2).
 template <class V, int K>
 struct State {
   V c[2][K][3];          // corners at both ends
-  V f[4];                // Bernstein coefficients of n(s).c_k(s), n = e1 x e2, the same for every corner k
-  V f_error, n_largest;  // bound of their rounding after two subdivisions; upper bound of |n(s)|
+  V f[4];                // Bernstein coefficients of n(s).c_k(s)
+  V f_error, n_largest;  // error of f, subdivided twice; upper bound of |n(s)|
   V rho;                 // |R|, rounded up
   V d, delta;
   V unit;
@@ -26,10 +26,12 @@ inline V separation_wanted(const State<V, K>& s) {
   return (s.d + V::all(0.5) * s.delta) * V::all(1 + 0x1p-49);
 }
 
-// f0 = n00.c0, f1 = (n00.c1 + (n01 + n10).c0)/3, f2 = (n11.c0 + (n01 + n10).c1)/3, f3 = n11.c1 with n_ij = e1(t_i) x e2(t_j).
-// Rounding, in units of u sum_a P_a R_a with P = the products of largest |e1| and |e2| components and R of the corner used:
-// inputs 1 + 1, product 1, difference 1 | sum 1 | corner 1, product 1, sums 2 | sum 1, division 1, weights: 12 in all;
-// two subdivisions of three lerps of 3, a margin taken off between them: 31; 34 covers second order. The corner of smallest R keeps tiny gaps accurate.
+// Sets the cubic n(s).c_k(s), n = e1 x e2, the same for all corners (docs/theory.md, §7). The corner of the
+// smallest bound keeps tiny gaps accurate.
+//
+// Subdivided twice, a coefficient carries 31 roundings of u sum_a P_a R_a, P and R the sizes of n and of the
+// corner; 34 covers second order (L13). The 10u of the margin taken off in between, which count where d is
+// large, are covered by its own factor 1 + 2^-48.
 template <class V, int K>
 inline void set_cubic(State<V, K>& s, const V (&e1)[2][3], const V (&e2)[2][3], bool maximum_norm) {
   V product[3], largest1[3], largest2[3];
@@ -68,13 +70,12 @@ inline void set_cubic(State<V, K>& s, const V (&e1)[2][3], const V (&e2)[2][3], 
   const auto size = [&](const V(&n)[3]) {
     return maximum_norm ? (abs(n[0]) + abs(n[1])) + abs(n[2]) : sqrt(dot(n, n));
   };
-  // A component of n00 errs by 2 + 1 + 1 = 4u of `product`, of half the sum of two by 5u, however small it is (nearly parallel edges);
-  // both norms are below the sum of components, and 6u covers second order. Relative to itself a norm errs by 4u.
+  // Components of n00 err by 4u of `product`, of half the sum by 5u, even of nearly parallel edges; 6u covers
+  // second order, 2^-46 the norms' own 2.5u (L14).
   s.n_largest = max(size(n00), max(size(middle), size(n11))) * V::all(1 + 0x1p-46) +
                 V::all(6 * kU) * ((product[0] + product[1]) + product[2]) + V::all(0x1p-500);
 }
 
-// Corners, scale, bounds and cubic of four pairs.
 template <int K>
 inline void set_up(const KernelPairs& pairs, const int* rows, State<D4, K>& s) {
   using V = D4;
