@@ -46,7 +46,7 @@ PairDecision::Bounds PairDecision::bounds_at(double t) const {
     const double size = sum_of_magnitudes(r.w);
     r.lower = size > 0 ? (least(corners(), t, r.w) - 8 * kU * corners().rho) / size * (1 - 0x1p-49) : 0;
     // The best direction shows all of the distance but rounding: 40u rho is proved (docs/theory.md, L44).
-    r.upper = r.lower > 0 ? r.lower + 32 * kU * corners().rho : distance_at(t);
+    r.upper = r.lower > 0 ? r.lower + 48 * kU * corners().rho : distance_at(t);
     return r;
   }
   const ClosestPoints found =

@@ -124,7 +124,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
   in_arena(options.threads, [&] {
     const Clock clock;
     Budget budget(options);
-    const Motion motion = make_motion(mesh.data().num_vertices, x_t0, x_t1);
+    const Motion motion = make_motion(mesh.data(), x_t0, x_t1);
     PairList listed;
     for (const ClosePair& p : close) listed.of(p.kind).push_back({p.a, p.b});
     const double moved = most_moved(motion), rounding = rounding_of_distances(motion);

@@ -79,6 +79,9 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
                                            const Options& options, double gap_share) {
   check(options);
   check_gap_share(gap_share);
+  if (candidates.outcome != Outcome::free)
+    throw std::invalid_argument(std::string("candidates ended with ") + to_string(candidates.outcome) +
+                                ": they are not complete");
   PairList pairs;
   pairs.of(PairKind::vertex_face) = checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face);
   pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge);
@@ -86,7 +89,7 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
   in_arena(options.threads, [&] {
     const Clock clock;
     Budget budget(options);
-    r = step_of_pairs(mesh, make_motion(mesh.data().num_vertices, x_t0, x_t1), pairs, options, gap_share, budget);
+    r = step_of_pairs(mesh, make_motion(mesh.data(), x_t0, x_t1), pairs, options, gap_share, budget);
     r.stats.seconds_total = clock.seconds();
   });
   return r;

@@ -57,7 +57,7 @@ ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 // not checked.
 // close: all close pairs of this mesh at x_t0, made with the same options.
 // gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as
-// in LineSearch, so that the next step is > 0.
+// in LineSearch, so that the next step is > 0 while gaps are more than twice StepResult::rounding.
 // Throws as safe_distances, and std::invalid_argument for options or gap_share out of range.
 // Safe to call concurrently on one Mesh.
 //

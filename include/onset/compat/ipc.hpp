@@ -325,6 +325,7 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
                                               const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                               const BroadPhase* broad_phase = nullptr,
                                               const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) {
+  if (!vertices_t0.allFinite() || !vertices_t1.allFinite()) return 0;
   if (mesh.can_collide) {
     Candidates candidates;
     candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
@@ -363,6 +364,7 @@ inline bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::Matri
   if (!mesh.can_collide)
     return onset::is_step_collision_free(mesh.onset_mesh(), vertices_t0, vertices_t1,
                                          options_of(min_distance, ccd));
+  if (!vertices_t0.allFinite() || !vertices_t1.allFinite()) return false;
   Candidates candidates;
   candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
   return candidates.is_step_collision_free(mesh, vertices_t0, vertices_t1, min_distance, ccd);
