@@ -11,8 +11,8 @@
 
 namespace onset {
 
-// While one lives, this thread rounds to nearest, keeps subnormal numbers and traps nothing; then it has the host's
-// environment and flags again. A few cycles.
+// While one lives, this thread rounds to nearest, keeps subnormal numbers and traps nothing; then it has the
+// host's environment and flags again. A few cycles.
 class FloatEnvironment {
  public:
   FloatEnvironment(const FloatEnvironment&) = delete;

@@ -33,7 +33,8 @@ InstructionSet resolve_instruction_set(InstructionSet requested) {
     case InstructionSet::scalar:
       return InstructionSet::scalar;
     case InstructionSet::avx2:
-      if (!has_avx2()) throw std::invalid_argument("instruction set avx2: not supported by this processor or build");
+      if (!has_avx2())
+        throw std::invalid_argument("instruction set avx2: not supported by this processor or build");
       return InstructionSet::avx2;
     case InstructionSet::automatic:
       return has_avx2() ? InstructionSet::avx2 : InstructionSet::scalar;

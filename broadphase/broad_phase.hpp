@@ -19,8 +19,7 @@ struct BroadPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
   // Every primitive is widened by this and the largest thickness of its vertices, rounded outward.
-  double inflation =
-      0;
+  double inflation = 0;
   // Only the motion on [0, t_max] matters; 1 means the exact end positions.
   double t_max = 1;
   BoxTest test = BoxTest::both_ends;

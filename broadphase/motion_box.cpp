@@ -111,7 +111,7 @@ bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b) {
 
 bool boxes_overlap(const BroadPhaseInput& input, PairKind kind, IdPair pair) {
   return boxes_overlap(input.test, motion_box(input, first_primitive(kind), pair.a),
-                    motion_box(input, second_primitive(kind), pair.b));
+                       motion_box(input, second_primitive(kind), pair.b));
 }
 
 }  // namespace onset

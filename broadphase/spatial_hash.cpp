@@ -143,7 +143,8 @@ class SpatialHash final : public BroadPhase {
     PairBatch batch(sink);
     cells_[std::size_t(kind)]->visit(first, last, [&](int i, int j) {
       const int a = A.ids[std::size_t(i)], b = B.ids[std::size_t(j)];
-      if (boxes_overlap(test_, A.exact[std::size_t(i)], B.exact[std::size_t(j)]) && may_meet(mesh_, kind, a, b))
+      if (boxes_overlap(test_, A.exact[std::size_t(i)], B.exact[std::size_t(j)]) &&
+          may_meet(mesh_, kind, a, b))
         batch.add(a, b);
     });
     batch.flush();

@@ -1,10 +1,9 @@
 // The paper's inclusion root finder (Algorithm 2; section 6), the last resort (docs/theory.md, §11).
 #pragma once
 
-#include "base/unit_roundoff.hpp"
-
 #include <cstdint>
 
+#include "base/unit_roundoff.hpp"
 #include "narrowphase/corners.hpp"
 
 namespace onset {

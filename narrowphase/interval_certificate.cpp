@@ -8,7 +8,6 @@
 namespace onset {
 namespace {
 
-
 Vec largest(Vec a, Vec b) {
   Vec r;
   for (int i = 0; i < 3; ++i) r[i] = std::max(std::fabs(a[i]), std::fabs(b[i]));

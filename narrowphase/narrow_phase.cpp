@@ -66,7 +66,7 @@ double reported_within(double tolerance, double extent) {
 bool NarrowPhase::uses_t_max() const { return in_.options.max_checks >= kChecksForTMax; }
 
 void NarrowPhase::gather(PairKind kind, const IdPair* pairs, std::size_t count,
-                          NarrowPhaseScratch& scratch) const {
+                         NarrowPhaseScratch& scratch) const {
   scratch.vertices.resize(4 * count);
   scratch.survivors.resize(count);
   if (kind == PairKind::vertex_face)
@@ -158,7 +158,8 @@ void NarrowPhase::process(PairKind kind, const IdPair* pairs, std::size_t count,
 
 // Asks the exact motion, too, which can differ within the tolerance. A pair that is free after its first
 // check is so with a smaller demand from the same look.
-void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const {
+void NarrowPhase::advance_exactly(PairKind kind, const KernelPairs& input, int survivors,
+                                  NarrowPhaseScratch& scratch) const {
   scratch.touches.assign(std::size_t(survivors), 0);
   scratch.asked.clear();
   scratch.places.clear();

@@ -115,7 +115,8 @@ class NarrowPhase {
   KernelPairs prepare(PairKind kind, const IdPair* pairs, std::size_t count, TMax t_max,
                       NarrowPhaseScratch& scratch) const;
   int cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const;
-  void advance_exactly(PairKind kind, const KernelPairs& input, int survivors, NarrowPhaseScratch& scratch) const;
+  void advance_exactly(PairKind kind, const KernelPairs& input, int survivors,
+                       NarrowPhaseScratch& scratch) const;
   void gather(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
 
   NarrowPhaseInput in_;

@@ -49,7 +49,8 @@ std::optional<PairResult> PairDecision::contact(const KernelResult& checked, dou
   if (found.verdict == Verdict::free) return std::nullopt;
   if (exact.answer == Answer::unknown) exact = decide_exactly(found, from);
   if (exact.answer == Answer::no) return std::nullopt;
-  const bool at_start = found.verdict == Verdict::initial && !(exact.answer == Answer::yes && exact.time.lo > 0);
+  const bool at_start =
+      found.verdict == Verdict::initial && !(exact.answer == Answer::yes && exact.time.lo > 0);
   if (!at_start) return report(found, exact, from, searched);
   return contact_at_start(found.separation > 0 ? start : bounds_at(0), found, exact);
 }
@@ -105,7 +106,8 @@ KernelResult PairDecision::carry_on(const KernelResult& checked, bool& searched)
   return searched ? search(found) : found;
 }
 
-PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, double from, bool searched) const {
+PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, double from,
+                                bool searched) const {
   const bool real = exact.answer == Answer::yes;
   const bool later =
       real && exact.time.lo > found.t && (in_.exact_times || found.verdict != Verdict::contact);
@@ -127,7 +129,8 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
 // Reports a pair that touches or is closer than d at the start. The side that a touching one came from is not
 // known: it blocks the step, unless the caller says otherwise. Where the motion parts others, the step goes
 // on to the next contact.
-PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResult& found, const ExactAnswer& exact) {
+PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResult& found,
+                                          const ExactAnswer& exact) {
   const double d = found.separation;
   PairResult r{asked_.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
                PairOutcome::initial_contact};
@@ -149,11 +152,13 @@ PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResul
 }
 
 // Decides the rest of the motion. What is reported at 0 has its step_limit whatever t_max is.
-void PairDecision::add_contact_after_parting(const KernelResult& found, const Parting& parting, PairResult& r) {
+void PairDecision::add_contact_after_parting(const KernelResult& found, const Parting& parting,
+                                             PairResult& r) {
   const double floor = kLeastTolerance * corners().rho;  // as at a start that is apart
   KernelResult later = found;
   later.t = parting.t;
-  later.delta = std::max(std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
+  later.delta =
+      std::max(std::min({kSharpness * in_.tolerance / found.unit, kSharpest, 0.25 * parting.excess}), floor);
   later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::max_checks;
   KernelPairs whole = pairs_;
   whole.t_max = whole.cull_t_max = 1;

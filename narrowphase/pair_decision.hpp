@@ -39,7 +39,11 @@ struct PairQuestion {
 class PairDecision {
  public:
   PairDecision(const PairQuestion& question, NarrowPhaseStats& stats)
-      : in_(question.in), kernels_(question.kernels), pairs_(question.pairs), asked_(question), stats_(stats) {}
+      : in_(question.in),
+        kernels_(question.kernels),
+        pairs_(question.pairs),
+        asked_(question),
+        stats_(stats) {}
 
   // Finds the contact of the exact motion. Advancement left the pair as `checked`, apart or parting until
   // `from`. The stages, each of which may end it, are exact first, push on, search, prove, report

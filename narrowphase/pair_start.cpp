@@ -9,7 +9,6 @@
 namespace onset {
 namespace {
 
-
 double least(const Corners& corners, double t, const Vec& w) {
   double at[4][3], r = INFINITY;
   corners.at(t, at);
@@ -59,10 +58,9 @@ PairDecision::Bounds PairDecision::bounds_at(double t) const {
 
 Parting PairDecision::find_parting_of(const Bounds& start, double separation, bool touching) const {
   const ExactPair exact = exact_pair_of_this();
-  const std::function<Vec(double)> direction = [&](double t) {
-    return t == 0 ? start.w : bounds_at(t).w;
-  };
-  return find_parting({corners(), pairs_, asked_.row, asked_.kind, separation, direction, touching ? nullptr : &exact});
+  const std::function<Vec(double)> direction = [&](double t) { return t == 0 ? start.w : bounds_at(t).w; };
+  return find_parting(
+      {corners(), pairs_, asked_.row, asked_.kind, separation, direction, touching ? nullptr : &exact});
 }
 
 // Goes on at t, where `at` shows the pair beyond d + kept. Where the full demand certifies nothing, d + kept

@@ -42,7 +42,8 @@ std::optional<PairResult> PairDecision::from_scratch() {
 
 // Finds the contact of the exact motion as an active set does, whatever t_max is.
 std::optional<PairResult> PairDecision::exact_motion() {
-  if (in_.contacts != nullptr && !in_.contacts->holds(in_.contacts->context, asked_.kind, asked_.pair)) return std::nullopt;
+  if (in_.contacts != nullptr && !in_.contacts->holds(in_.contacts->context, asked_.kind, asked_.pair))
+    return std::nullopt;
   const KernelPairs plain = without_storing(pairs_, 1);
   return PairDecision({in_, kernels_, plain, asked_.row, asked_.kind, asked_.pair}, stats_).from_scratch();
 }
@@ -110,7 +111,8 @@ PairDecision::StoredLimit PairDecision::limit_from_start(std::optional<PairResul
   const Bounds start = bounds_at(0);
   const double d = separation() / corners().unit, rounding = storing_rounding(), gap = start.upper - d;
   const double apart = start.lower - d, wanted = in_.gap_share * gap + kStoredRoundings * rounding;
-  const double kept = std::min({wanted, 0.5 * (1 + in_.gap_share) * apart, apart - 2 * kStartNoise * corners().rho});
+  const double kept =
+      std::min({wanted, 0.5 * (1 + in_.gap_share) * apart, apart - 2 * kStartNoise * corners().rho});
   if (kept > rounding) {
     note_kept((kept - rounding) / gap);
     const StoredLimit limit{0, limit_from(start, 0, kept)};
@@ -159,8 +161,7 @@ PairDecision::StoredLimit PairDecision::limit_after_parting(const Bounds& start)
     limit.from = clear_time(rounding + 2 * noise);
     const bool clears = limit.from < parting.t;
     KernelResult clear{};
-    if (clears)
-      clear = limit_from(bounds_at(limit.from), limit.from, rounding - d);
+    if (clears) clear = limit_from(bounds_at(limit.from), limit.from, rounding - d);
     if (!clears || (clear.verdict != Verdict::free && clear.t < parting.t)) {
       limit.from = INFINITY;  // not known to stay clear
       limit.found.t = 0, limit.found.verdict = Verdict::max_checks;

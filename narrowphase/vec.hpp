@@ -1,10 +1,10 @@
 // Three doubles (or double-doubles). Sums run in the kernels' order.
 #pragma once
 
-#include "base/unit_roundoff.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "base/unit_roundoff.hpp"
 
 namespace onset {
 

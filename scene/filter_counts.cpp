@@ -86,8 +86,8 @@ class FilterCounter {
   }
 
   static void add(Group& group, int kind, Primitive p, Count n = 1) {
-    auto place =
-        std::lower_bound(group.begin(), group.end(), kind, [](const EqualPrimitives& a, int k) { return a.kind < k; });
+    auto place = std::lower_bound(group.begin(), group.end(), kind,
+                                  [](const EqualPrimitives& a, int k) { return a.kind < k; });
     if (place == group.end() || place->kind != kind) place = group.insert(place, EqualPrimitives{kind, {}});
     place->count[std::size_t(p)] += n;
   }

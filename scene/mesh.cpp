@@ -16,7 +16,6 @@
 namespace onset {
 namespace {
 
-
 template <std::size_t N>
 std::vector<std::array<int, N>> checked(const char* what, const Indices& ids, std::ptrdiff_t vertices) {
   if (ids.rows() > 0 && ids.cols() != std::ptrdiff_t(N))
@@ -28,7 +27,7 @@ std::vector<std::array<int, N>> checked(const char* what, const Indices& ids, st
       const long long v = ids(r, c);
       if (v < 0 || v >= vertices)
         reject_row(what, r,
-               "vertex " + std::to_string(v) + " is out of range, there are " + std::to_string(vertices));
+                   "vertex " + std::to_string(v) + " is out of range, there are " + std::to_string(vertices));
       for (std::size_t k = 0; k < c; ++k)
         if (result[r][k] == v) reject_row(what, r, "vertex " + std::to_string(v) + " is repeated");
       result[r][c] = int(v);
@@ -192,8 +191,9 @@ void Mesh::set_full_vertices(const std::vector<int>& ids, std::ptrdiff_t full_ve
   std::vector<bool> taken(std::size_t(checked_count(full_vertices)));
   for (std::size_t v = 0; v < ids.size(); ++v) {
     if (ids[v] < 0 || ids[v] >= full_vertices)
-      reject_row("full vertices", std::ptrdiff_t(v),
-             "id " + std::to_string(ids[v]) + " is out of range, there are " + std::to_string(full_vertices));
+      reject_row(
+          "full vertices", std::ptrdiff_t(v),
+          "id " + std::to_string(ids[v]) + " is out of range, there are " + std::to_string(full_vertices));
     if (taken[std::size_t(ids[v])])
       reject_row("full vertices", std::ptrdiff_t(v), "id " + std::to_string(ids[v]) + " is repeated");
     taken[std::size_t(ids[v])] = true;

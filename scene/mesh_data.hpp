@@ -11,7 +11,7 @@
 
 namespace onset {
 
-struct CollisionRules;    // onset/collision_rules.hpp
+struct CollisionRules;   // onset/collision_rules.hpp
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
 
 // Returns the filter of a mesh without rules: see MeshData::filter.

@@ -21,8 +21,8 @@ bool needs_keys(const MeshData& m) {
   const auto any = [](const std::vector<bool>& flags) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
   };
-  return !m.group.empty() || any(m.is_static) || any(m.rigid) || any(m.no_self) || !m.excluded_bodies.empty() ||
-         !m.excluded_vertices.empty() || any_excluded_pair(m);
+  return !m.group.empty() || any(m.is_static) || any(m.rigid) || any(m.no_self) ||
+         !m.excluded_bodies.empty() || !m.excluded_vertices.empty() || any_excluded_pair(m);
 }
 
 std::vector<bool> marked(std::size_t size, const std::vector<std::array<int, 2>>& pairs) {
@@ -81,7 +81,8 @@ void list_kinds(const MeshData& m, PrimitiveFilter& filter) {
   const bool faces = m.num_vertices > 0 && !m.faces.empty();
   const bool edges = m.edges.size() > 1 || (faces && !m.edges.empty());
   const std::array<bool, 3> needed{faces, edges, faces};
-  const std::array<PrimitiveFilterCounts*, 3> counts{&filter.counts.vertices, &filter.counts.edges, &filter.counts.faces};
+  const std::array<PrimitiveFilterCounts*, 3> counts{&filter.counts.vertices, &filter.counts.edges,
+                                                     &filter.counts.faces};
   for (const Primitive kind : kPrimitives) {
     const std::size_t k = std::size_t(kind), count = primitive_count(m, kind);
     (needed[k] ? counts[k]->moving : counts[k]->dropped) = std::int64_t(count);
@@ -97,22 +98,23 @@ void list_kinds(const MeshData& m, PrimitiveFilter& filter) {
 
 void list_primitives(const MeshData& m, const std::array<std::vector<bool>, 3>& idle,
                      PrimitiveFilter& filter) {
-  const std::array<PrimitiveFilterCounts*, 3> counts{&filter.counts.vertices, &filter.counts.edges, &filter.counts.faces};
+  const std::array<PrimitiveFilterCounts*, 3> counts{&filter.counts.vertices, &filter.counts.edges,
+                                                     &filter.counts.faces};
   filter.all = false;
   for (const Primitive kind : kPrimitives) {
     const std::size_t k = std::size_t(kind);
     for (std::size_t id = 0; id < idle[k].size(); ++id)
       if (!idle[k][id]) (is_static(m, kind, int(id)) ? filter.statics : filter.moving)[k].push_back(int(id));
     *counts[k] = {std::int64_t(filter.moving[k].size()), std::int64_t(filter.statics[k].size()),
-                 std::int64_t(idle[k].size() - filter.moving[k].size() - filter.statics[k].size())};
+                  std::int64_t(idle[k].size() - filter.moving[k].size() - filter.statics[k].size())};
   }
 }
 
 void list_vertices(const MeshData& m, PrimitiveFilter& filter) {
   std::vector<bool> moving(std::size_t(m.num_vertices)), stays(std::size_t(m.num_vertices));
   for (const Primitive kind : kPrimitives)
-    for (const auto& [ids, used] :
-         {std::pair(&filter.moving[std::size_t(kind)], &moving), {&filter.statics[std::size_t(kind)], &stays}})
+    for (const auto& [ids, used] : {std::pair(&filter.moving[std::size_t(kind)], &moving),
+                                    {&filter.statics[std::size_t(kind)], &stays}})
       for (int id : *ids)
         for (int v : primitive_vertices(m, kind, id)) (*used)[std::size_t(v)] = true;
   filter.moving_vertices = listed(moving), filter.static_vertices = listed(stays);

@@ -29,7 +29,7 @@ std::vector<std::array<int, 2>> checked_pairs(const char* what, std::vector<std:
     for (const int i : {a, b})
       if (i < 0 || i >= count)
         reject_row(what, std::ptrdiff_t(r),
-               "id " + std::to_string(i) + " is out of range, there are " + std::to_string(count));
+                   "id " + std::to_string(i) + " is out of range, there are " + std::to_string(count));
     if (a == b) reject_row(what, std::ptrdiff_t(r), "id " + std::to_string(a) + " is repeated");
     if (a > b) std::swap(a, b);
   }
@@ -45,8 +45,9 @@ void check_one_body(const char* what, const std::vector<std::array<int, N>>& ele
     for (const int v : elements[r])
       if (const int first = elements[r][0]; body[std::size_t(v)] != body[std::size_t(first)])
         reject_row(what, std::ptrdiff_t(r),
-               "vertex " + std::to_string(first) + " is in body " + std::to_string(body[std::size_t(first)]) +
-                   ", vertex " + std::to_string(v) + " in body " + std::to_string(body[std::size_t(v)]));
+                   "vertex " + std::to_string(first) + " is in body " +
+                       std::to_string(body[std::size_t(first)]) + ", vertex " + std::to_string(v) +
+                       " in body " + std::to_string(body[std::size_t(v)]));
 }
 
 // Appends the points as edges {v, v} after all others.
@@ -77,7 +78,8 @@ void apply_thickness(const std::vector<double>& thickness, MeshData& data) {
   if (!thickness.empty()) check_size("thickness", thickness.size(), data.num_vertices, "vertices");
   for (std::size_t v = 0; v < thickness.size(); ++v)
     if (!(thickness[v] >= 0) || !std::isfinite(thickness[v]))
-      reject_row("thickness", std::ptrdiff_t(v), std::to_string(thickness[v]) + " is not a finite number >= 0");
+      reject_row("thickness", std::ptrdiff_t(v),
+                 std::to_string(thickness[v]) + " is not a finite number >= 0");
   // No thickness at all is cheaper than one of 0 everywhere.
   const bool any = std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0; });
   data.thickness = any ? thickness : std::vector<double>();
@@ -104,8 +106,7 @@ void apply_bodies(const CollisionRules& rules, MeshData& data) {
   }
   data.body = body;
   data.rigid = flags_of_bodies("rigid_bodies", rules.rigid_bodies, data);
-  data.no_self =
-      flags_of_bodies("bodies_without_self_collision", rules.bodies_without_self_collision, data);
+  data.no_self = flags_of_bodies("bodies_without_self_collision", rules.bodies_without_self_collision, data);
   data.excluded_bodies = checked_pairs("excluded_bodies", rules.excluded_bodies, count_bodies(data));
 }
 

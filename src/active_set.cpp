@@ -1,8 +1,9 @@
+#include "onset/active_set.hpp"
+
 #include <algorithm>
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "onset/active_set.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/contacts.hpp"
 #include "src/shared/find_contacts.hpp"
@@ -44,7 +45,9 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     set.outcome = setup.motion.status;
     set.vertex = setup.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
-    TraversalResult traversal = setup.broad ? find_contacts(mesh, setup, options, Collect::all, budget, set.stats) : TraversalResult{};
+    TraversalResult traversal = setup.broad
+                                    ? find_contacts(mesh, setup, options, Collect::all, budget, set.stats)
+                                    : TraversalResult{};
     const double begun = setup.clock.seconds();
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);

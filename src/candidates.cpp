@@ -22,8 +22,8 @@ struct Use {
 // Counts, lists or hands on the candidates of one setup.
 class CandidateList {
  public:
-  CandidateList(const MeshData& mesh, const StepSetup& setup, const Use& use, const Options& options, Budget& budget,
-                Candidates& result)
+  CandidateList(const MeshData& mesh, const StepSetup& setup, const Use& use, const Options& options,
+                Budget& budget, Candidates& result)
       : mesh_(mesh),
         setup_(setup),
         use_(use),
@@ -33,7 +33,8 @@ class CandidateList {
 
   void take(PairKind kind) {
     Ids& listed = kind == PairKind::vertex_face ? result_.vertex_face : result_.edge_edge;
-    std::int64_t& count = kind == PairKind::vertex_face ? result_.counts.vertex_face : result_.counts.edge_edge;
+    std::int64_t& count =
+        kind == PairKind::vertex_face ? result_.counts.vertex_face : result_.counts.edge_edge;
     const auto visit = [&](Task& task, const IdPair* pairs, std::size_t n) { take(kind, pairs, n, task); };
     const auto merge = [&](Task& task, std::size_t blocks) {
       if (!budget_.spent()) budget_.advance(blocks);

@@ -26,7 +26,8 @@ IntersectionKind kind_of(EdgeFace found) {
 void add_if_common(const MeshData& mesh, const Motion& motion, IdPair ids, std::vector<Intersection>& found) {
   const auto& e = mesh.edges[std::size_t(ids.a)];
   const auto& f = mesh.faces[std::size_t(ids.b)];
-  const double* const x[5] = {motion.t0(e[0]), motion.t0(e[1]), motion.t0(f[0]), motion.t0(f[1]), motion.t0(f[2])};
+  const double* const x[5] = {motion.t0(e[0]), motion.t0(e[1]), motion.t0(f[0]), motion.t0(f[1]),
+                              motion.t0(f[2])};
   const EdgeFace answer = edge_face({{x[0], x[1]}, {x[2], x[3], x[4]}});
   if (answer == EdgeFace::apart) return;
   if (mesh.weld && any_across(2, 5, [&](int i, int j) { return at_one_place(x[i], x[j]); })) return;

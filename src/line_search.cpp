@@ -43,12 +43,13 @@ struct LineSearch::Impl {
   LineSearchOptions options;
   double rounding = 0;
   std::unique_ptr<StepSetup> setup;  // keeps its tree only where the lists do not fit
-  std::vector<double> dx;        // 3 #V as the caller gave it; empty without a distance set
-  StepResult start;              // statistics of the broad phase; outcome and vertex of an unusable motion
-  PairList pairs, near;         // may limit a step; may come within d_hat on the way
+  std::vector<double> dx;            // 3 #V as the caller gave it; empty without a distance set
+  StepResult start;      // statistics of the broad phase; outcome and vertex of an unusable motion
+  PairList pairs, near;  // may limit a step; may come within d_hat on the way
 
   NarrowPhaseInput input() const {
-    return stored_step_input(mesh.data(), setup->motion, setup->accuracy, options, options.gap_share, rounding);
+    return stored_step_input(mesh.data(), setup->motion, setup->accuracy, options, options.gap_share,
+                             rounding);
   }
   bool fill(Budget& budget);
   const PairSource& source(const PairList& list) const {
@@ -67,7 +68,8 @@ bool LineSearch::Impl::fill(Budget& budget) {
   Options beyond = options;
   beyond.min_separation = euclidean_reach(mesh.data(), options, options.d_hat, rounding);
   beyond.norm = Norm::euclidean;
-  const NarrowPhase far({mesh.data(), setup->motion, setup->accuracy.tolerance, setup->accuracy.extent, beyond});
+  const NarrowPhase far(
+      {mesh.data(), setup->motion, setup->accuracy.tolerance, setup->accuracy.extent, beyond});
   lists.push_back({far, near});
   return cull_into(*setup->broad, lists, most, budget);
 }
@@ -84,7 +86,8 @@ std::vector<double> LineSearch::Impl::at(double step) const {
 
 LineSearch::LineSearch() = default;
 
-LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const LineSearchOptions& options)
+LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx,
+                       const LineSearchOptions& options)
     : impl_(new Impl{mesh, options, 0, {}, {}, {}, {}, {}}) {
   check(options);
   check_d_hat(options.d_hat, true);
@@ -95,8 +98,8 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
   in_arena(options.threads, [&] {
     const Positions end(x_t1.data(), x_t0.rows());
     Budget budget(h.options);
-    h.setup = std::make_unique<StepSetup>(h.mesh, x_t0, end, h.options, StepSetup::Use::stored_step, h.start.stats, budget,
-                                      options.d_hat);
+    h.setup = std::make_unique<StepSetup>(h.mesh, x_t0, end, h.options, StepSetup::Use::stored_step,
+                                          h.start.stats, budget, options.d_hat);
     h.start.outcome = h.setup->motion.status;
     h.start.vertex = h.setup->motion.bad_vertex;
     if (h.start.outcome != Outcome::free) return;
@@ -129,12 +132,13 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   in_arena(h.options.threads, [&] {
     const Clock clock;
     Budget budget(h.options);
-    const TraversalResult traversal = traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Collect::first, upper, budget);
+    const TraversalResult traversal =
+        traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Collect::first, upper, budget);
     copy_counts(traversal, r.stats);
     limit_step(h.mesh, traversal, budget, upper, upper, r);
     r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
-    for (const auto& [kind, stats] :
-         {std::pair{PairKind::vertex_face, traversal.vertex_face}, {PairKind::edge_edge, traversal.edge_edge}}) {
+    for (const auto& [kind, stats] : {std::pair{PairKind::vertex_face, traversal.vertex_face},
+                                      {PairKind::edge_edge, traversal.edge_edge}}) {
       if (stats.least_share >= r.gap_share) continue;
       r.gap_share = std::max(stats.least_share, 0.0);
       r.gap_share_reduced = true;
@@ -148,7 +152,8 @@ LineSearchStep LineSearch::largest_step(double upper) const {
 ClosePairs LineSearch::close_pairs(double step) const {
   check_step("step", step);
   const Impl& h = impl();
-  if (h.options.d_hat == 0) throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
+  if (h.options.d_hat == 0)
+    throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
   ClosePairs r;
   r.d_hat = h.options.d_hat;
   r.outcome = h.start.outcome;
@@ -158,7 +163,8 @@ ClosePairs LineSearch::close_pairs(double step) const {
     const Clock clock;
     const std::vector<double> x = h.at(step);
     Budget budget(h.options);
-    auto close = find_close(h.source(h.near), {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options}, budget);
+    auto close =
+        find_close(h.source(h.near), {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options}, budget);
     r.pairs = std::move(close.found);
     r.outcome = close.too_many ? Outcome::out_of_memory : budget.outcome();
     r.seconds = clock.seconds();

@@ -1,10 +1,11 @@
+#include "onset/query.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/float_environment.hpp"
 #include "narrowphase/corners.hpp"
 #include "narrowphase/narrow_phase.hpp"
-#include "onset/query.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/contacts.hpp"
 

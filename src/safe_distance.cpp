@@ -1,5 +1,4 @@
 #include "onset/safe_distance.hpp"
-#include "onset/step_size.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 
 #include "base/clock.hpp"
 #include "base/parallel.hpp"
+#include "onset/step_size.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
@@ -44,7 +44,8 @@ double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0
 
 // Returns the step that docs/theory.md, L49 gives without a look at any pair: distances fall by at most the
 // rest of the gap that is not kept. dx is off by a rounding, which the factor in safe_step covers.
-double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close, double gap_share) {
+double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close,
+                    double gap_share) {
   std::vector<double> dx;
   for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
     for (int a = 0; a < 3; ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
@@ -141,7 +142,8 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
       if (r.step == 1) r.outcome = Outcome::free;
       r.toi = r.step == 1 ? INFINITY : r.step;
     } else {
-      if (const double contact = time_for_others(close.d_hat - rounding, moved); contact < 1) r.toi = std::min(r.toi, contact);
+      if (const double contact = time_for_others(close.d_hat - rounding, moved); contact < 1)
+        r.toi = std::min(r.toi, contact);
     }
     r.stats.seconds_total = clock.seconds();
   });

@@ -1,10 +1,11 @@
+#include "onset/step_size.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
 #include "base/parallel.hpp"
 #include "onset/candidates.hpp"
-#include "onset/step_size.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
@@ -18,12 +19,14 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
                          const Options& options, Collect collect) {
   StepResult r;
   Budget budget(options);
-  const StepSetup::Use use = collect == Collect::first ? StepSetup::Use::stored_step : StepSetup::Use::contacts;
+  const StepSetup::Use use =
+      collect == Collect::first ? StepSetup::Use::stored_step : StepSetup::Use::contacts;
   StepSetup setup(mesh, x_t0, x_t1, options, use, r.stats, budget);
   r.outcome = setup.motion.status;
   r.vertex = setup.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
-  const TraversalResult traversal = setup.broad ? find_contacts(mesh, setup, options, collect, budget, r.stats) : TraversalResult{};
+  const TraversalResult traversal =
+      setup.broad ? find_contacts(mesh, setup, options, collect, budget, r.stats) : TraversalResult{};
   limit_step(mesh, traversal, budget, 1, 1, r);
   r.rounding = reported_rounding(setup.rounding);
   r.stats.seconds_total = setup.clock.seconds();

@@ -18,8 +18,8 @@
 namespace {
 
 constexpr int kRounds = 7;
-constexpr onset::Exactness kLevels[] = {onset::Exactness::conservative,
-                                             onset::Exactness::certify, onset::Exactness::exact};
+constexpr onset::Exactness kLevels[] = {onset::Exactness::conservative, onset::Exactness::certify,
+                                        onset::Exactness::exact};
 
 struct Measured {
   double seconds = INFINITY;

@@ -56,8 +56,8 @@ void write_ply(const std::string& path, const PlyLayer& layer, double earliest) 
   Output file(path);
   std::vector<PlyRows> header{{"vertex",
                                layer.vertices.size(),
-                               {"double x", "double y", "double z", "double nx", "double ny", "double nz", "double toi",
-                                "uchar red", "uchar green", "uchar blue"}}};
+                               {"double x", "double y", "double z", "double nx", "double ny", "double nz",
+                                "double toi", "uchar red", "uchar green", "uchar blue"}}};
   if (!layer.faces.empty()) header.push_back(ply_faces(layer.faces.size()));
   if (!layer.edges.empty()) header.push_back(ply_edges(layer.edges.size()));
   write_ply_header(file, header);

@@ -1,5 +1,5 @@
-// Writes PLY, ascii, for MeshLab and the like: a mesh with a colour for each vertex, or a layer of points, edges and
-// faces with a normal and a time of impact each.
+// Writes PLY, ascii, for MeshLab and the like: a mesh with a colour for each vertex, or a layer of points,
+// edges and faces with a normal and a time of impact each.
 #pragma once
 
 #include <array>

@@ -31,8 +31,8 @@ class Lines {
 // Split at blanks, tabs and the like. What starts with '#' is a comment up to the line's end.
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 
-// The nearest double, whatever the locale is: infinite beyond the largest, 0 below the smallest. None where the
-// word is no number; nan and inf are.
+// The nearest double, whatever the locale is: infinite beyond the largest, 0 below the smallest. None where
+// the word is no number; nan and inf are.
 std::optional<double> parse_double(std::string_view word);
 
 // None where the word is no whole number, or beyond 64 bits.

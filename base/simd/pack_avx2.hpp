@@ -71,7 +71,8 @@ inline int bits(MaskF8 m) { return _mm256_movemask_ps(m.m); }
 
 // Loads x, y, z of the four points at p0..p3 (four doubles each), one point a lane.
 inline void transpose(const double* p0, const double* p1, const double* p2, const double* p3, D4 (&xyz)[3]) {
-  const __m256d a = _mm256_loadu_pd(p0), b = _mm256_loadu_pd(p1), c = _mm256_loadu_pd(p2), d = _mm256_loadu_pd(p3);
+  const __m256d a = _mm256_loadu_pd(p0), b = _mm256_loadu_pd(p1), c = _mm256_loadu_pd(p2),
+                d = _mm256_loadu_pd(p3);
   const __m256d ab_lo = _mm256_unpacklo_pd(a, b), ab_hi = _mm256_unpackhi_pd(a, b);
   const __m256d cd_lo = _mm256_unpacklo_pd(c, d), cd_hi = _mm256_unpackhi_pd(c, d);
   xyz[0].v = _mm256_permute2f128_pd(ab_lo, cd_lo, 0x20);
@@ -81,12 +82,15 @@ inline void transpose(const double* p0, const double* p1, const double* p2, cons
 // Loads the first seven of the eight floats at each p[l], one p a lane.
 inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
   const auto both = [&](int l, int at) {  // four floats of lane l and of lane l + 4
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[l] + at)), _mm_loadu_ps(p[l + 4] + at), 1);
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[l] + at)), _mm_loadu_ps(p[l + 4] + at),
+                                1);
   };
   for (int half = 0; half < 2; ++half) {
     const __m256 a = both(0, 4 * half), b = both(1, 4 * half), c = both(2, 4 * half), d = both(3, 4 * half);
-    const __m256d ab_lo = _mm256_castps_pd(_mm256_unpacklo_ps(a, b)), cd_lo = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
-    const __m256d ab_hi = _mm256_castps_pd(_mm256_unpackhi_ps(a, b)), cd_hi = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
+    const __m256d ab_lo = _mm256_castps_pd(_mm256_unpacklo_ps(a, b)),
+                  cd_lo = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
+    const __m256d ab_hi = _mm256_castps_pd(_mm256_unpackhi_ps(a, b)),
+                  cd_hi = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
     out[4 * half].v = _mm256_castpd_ps(_mm256_unpacklo_pd(ab_lo, cd_lo));
     out[4 * half + 1].v = _mm256_castpd_ps(_mm256_unpackhi_pd(ab_lo, cd_lo));
     out[4 * half + 2].v = _mm256_castpd_ps(_mm256_unpacklo_pd(ab_hi, cd_hi));

@@ -53,15 +53,15 @@ struct I8 : Pack<int, Int4, Int4> {
 #define ONSET_P const Pack<T, H, B>&
 ONSET_EACH_HALF(operator+(ONSET_P a, ONSET_P b), a.lo + b.lo, a.hi + b.hi)
 ONSET_EACH_HALF(operator-(ONSET_P a, ONSET_P b), a.lo - b.lo, a.hi - b.hi)
-ONSET_EACH_HALF(operator*(ONSET_P a, ONSET_P b), a.lo * b.lo, a.hi * b.hi)
+ONSET_EACH_HALF(operator*(ONSET_P a, ONSET_P b), a.lo* b.lo, a.hi* b.hi)
 ONSET_EACH_HALF(operator/(ONSET_P a, ONSET_P b), a.lo / b.lo, a.hi / b.hi)
 ONSET_EACH_HALF(min(ONSET_P a, ONSET_P b), a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? a.hi : b.hi)
 ONSET_EACH_HALF(max(ONSET_P a, ONSET_P b), a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi)
 #undef ONSET_EACH_HALF
-#define ONSET_COMPARE(op)                                        \
-  template <class T, class H, class B>                           \
-  inline Mask<B> operator op(ONSET_P a, ONSET_P b) {             \
-    return {(B)(a.lo op b.lo), (B)(a.hi op b.hi)};               \
+#define ONSET_COMPARE(op)                            \
+  template <class T, class H, class B>               \
+  inline Mask<B> operator op(ONSET_P a, ONSET_P b) { \
+    return {(B)(a.lo op b.lo), (B)(a.hi op b.hi)};   \
   }
 ONSET_COMPARE(<)
 ONSET_COMPARE(<=)
@@ -186,7 +186,9 @@ inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {
 inline Double2 inverse_power_of_two(Double2 x) {
   return (Double2)(0x7fe0000000000000 - ((Long2)x & 0x7ff0000000000000));
 }
-inline D4 inverse_power_of_two(const D4& x) { return {inverse_power_of_two(x.lo), inverse_power_of_two(x.hi)}; }
+inline D4 inverse_power_of_two(const D4& x) {
+  return {inverse_power_of_two(x.lo), inverse_power_of_two(x.hi)};
+}
 inline F8 to_float(const D4& lo, const D4& hi) {
   return {Float4{float(lo.lo[0]), float(lo.lo[1]), float(lo.hi[0]), float(lo.hi[1])},
           Float4{float(hi.lo[0]), float(hi.lo[1]), float(hi.hi[0]), float(hi.hi[1])}};

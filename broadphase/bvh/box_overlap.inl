@@ -14,7 +14,8 @@ constexpr int opposite(int row) { return (row + 3) % 6; }
 // directions, at whichever end that is more. Inlined even into large loops: a call would pass eight floats
 // through memory.
 template <bool kBothEnds>
-__attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block, int k) {
+__attribute__((always_inline)) inline F8 overlap_along(const float* box, int stride, const float* block,
+                                                       int k) {
   const F8 reach = F8::all(box[opposite(k) * stride]) + F8::load(block + k * kLanes);
   if (!kBothEnds) return reach;
   return max(F8::all(box[(6 + opposite(k)) * stride]) + F8::load(block + (6 + k) * kLanes), reach);
@@ -83,12 +84,10 @@ inline F8 error_of(const Direction& d) {
   return F8::all(kFourRoundings) * (abs(d.a0) + abs(d.a1)) + F8::all(kLeast);
 }
 inline int certainly_apart(const Together& most) {
-  return bits(most.begin * F8::all(1 - kRootSlack) >
-              most.end * F8::all(1 + kRootSlack) + F8::all(kLeast));
+  return bits(most.begin * F8::all(1 - kRootSlack) > most.end * F8::all(1 + kRootSlack) + F8::all(kLeast));
 }
 inline int certainly_together(const Together& least) {
-  return bits(least.end * F8::all(1 - kRootSlack) >
-              least.begin * F8::all(1 + kRootSlack) + F8::all(kLeast));
+  return bits(least.end * F8::all(1 - kRootSlack) > least.begin * F8::all(1 + kRootSlack) + F8::all(kLeast));
 }
 
 // Of lanes whose boxes overlap by the test of both ends, those that are certainly apart throughout, and those

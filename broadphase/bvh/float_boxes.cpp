@@ -150,8 +150,7 @@ int write_widened_point(const FloatMap& map, const double* x, double r, float* o
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
                        const int* ids, std::size_t count) {
   const bool swept = input.test == BoxTest::swept;
-  const bool points =
-      kind == Primitive::vertex && input.mesh.thickness.empty() && input.t_max == 1;
+  const bool points = kind == Primitive::vertex && input.mesh.thickness.empty() && input.t_max == 1;
   const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
   Supports s;
   s.count = count;

@@ -14,7 +14,8 @@ std::size_t slot_of(bool swept, const std::array<int, 3>& axes) {
 StaticTrees::StaticTrees(const BroadPhaseInput& input, double by)
     : motion(input.motion.static_part), inflation(by), map(input.motion), separates(map.suits(input.motion)) {
   const PrimitiveFilter& filter = *input.mesh.filter;
-  order = make_vertex_order(input.motion, map, {filter.static_vertices.data(), filter.static_vertices.size()});
+  order =
+      make_vertex_order(input.motion, map, {filter.static_vertices.data(), filter.static_vertices.size()});
   const Supports vertices =
       make_supports(input, by, map, Primitive::vertex, order.vertex.data(), order.vertex.size());
   for (const Primitive kind : kPrimitives) {

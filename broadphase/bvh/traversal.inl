@@ -47,7 +47,8 @@ class Traversal {
   static constexpr int kRows = kRowsOf[kBothEnds];
   static constexpr int kBoxStride = kBoxStrideOf[kBothEnds];
   static constexpr bool kEdges = kSides == Sides::edges_edges;
-  static constexpr int kOwn = kSides == Sides::vertices_faces ? 1 : 2, kOther = kEdges ? 2 : 3;  // vertices of a primitive
+  static constexpr int kOwn = kSides == Sides::vertices_faces ? 1 : 2,
+                       kOther = kEdges ? 2 : 3;  // vertices of a primitive
 
   static const float* block_of(const TreeView& tree, int level, unsigned n) {
     return tree.level[level] + std::size_t(n) * (kRows * kLanes);
@@ -236,7 +237,8 @@ class Traversal {
   // Puts off lanes in doubt and returns them. Not inlined: the loop that calls it has no register to spare.
   __attribute__((noinline)) int defer(unsigned c, unsigned b, int doubt) {
     if (!kMoving)
-      doubt &= touching<kBothEnds>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
+      doubt &=
+          touching<kBothEnds>(Leaves(t_.query).box(c), kLanes, Leaves(t_.tree).block(b), t_.rounded_axes);
     doubtful_.add(I8::all(int(c)), compress(I8::lane_numbers() + I8::all(int(b * kBlock)), doubt), doubt);
     if (doubtful_.full()) settle_doubtful();
     return doubt;
@@ -269,8 +271,8 @@ class Traversal {
     }
     return moving_boxes_apart([&](int k) {
       const int across = opposite(k);
-      return Direction{collect(boxes_a, across * kLanes), collect(boxes_a, (6 + across) * kLanes), collect(boxes_b, k * kLanes),
-                       collect(boxes_b, (6 + k) * kLanes)};
+      return Direction{collect(boxes_a, across * kLanes), collect(boxes_a, (6 + across) * kLanes),
+                       collect(boxes_b, k * kLanes), collect(boxes_b, (6 + k) * kLanes)};
     });
   }
 
@@ -306,9 +308,12 @@ void traverse(const TraverseArguments& arguments) {
   if (arguments.sides == Sides::edges_faces)
     return traverse_sides<BoxTest::swept, Sides::edges_faces>(arguments);
   switch (arguments.test) {
-    case BoxTest::swept: return traverse_boxes<BoxTest::swept>(arguments);
-    case BoxTest::both_ends: return traverse_boxes<BoxTest::both_ends>(arguments);
-    case BoxTest::moving: return traverse_boxes<BoxTest::moving>(arguments);
+    case BoxTest::swept:
+      return traverse_boxes<BoxTest::swept>(arguments);
+    case BoxTest::both_ends:
+      return traverse_boxes<BoxTest::both_ends>(arguments);
+    case BoxTest::moving:
+      return traverse_boxes<BoxTest::moving>(arguments);
   }
 }
 

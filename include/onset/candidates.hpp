@@ -42,7 +42,8 @@ ONSET_API Candidates count_candidates(const Mesh& mesh, const Positions& x_t0, c
                                       const Options& options = {});
 
 // Gets candidates of one kind, as in Candidates; `pairs` is valid during the call only.
-using CandidateVisitor = std::function<void(PairKind kind, const std::array<int, 2>* pairs, std::size_t count)>;
+using CandidateVisitor =
+    std::function<void(PairKind kind, const std::array<int, 2>* pairs, std::size_t count)>;
 
 // Hands every candidate to `visit`, each once, in batches and in no particular order, in constant memory.
 //

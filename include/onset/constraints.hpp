@@ -1,8 +1,8 @@
 // Contacts as linear inequalities, ready to assemble into a solver's matrix.
 #pragma once
 
-#include <onset/export.hpp>
 #include <onset/active_set.hpp>
+#include <onset/export.hpp>
 #include <vector>
 
 namespace onset {

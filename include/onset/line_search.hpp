@@ -15,14 +15,13 @@ namespace onset {
 struct LineSearchOptions : Options {
   LineSearchOptions() = default;
   // NOLINTNEXTLINE: implicit by design, for who needs no more.
-  LineSearchOptions(const Options& options)
-      : Options(options) {}
+  LineSearchOptions(const Options& options) : Options(options) {}
 
   // In [0, 1): every pair keeps at least this share of its gap at x_t0 (its distance less its separation), or
   // all but what is beyond the larger of d_hat and the tolerance, so that steps along one direction approach
   // a contact as a sequence t_i < t_i+1 and never reach it. From every result the next step is > 0 as long as
-  // every gap is more than twice StepResult::rounding: a solver that pushes on below that, against no barrier,
-  // takes ever smaller steps and then none.
+  // every gap is more than twice StepResult::rounding: a solver that pushes on below that, against no
+  // barrier, takes ever smaller steps and then none.
   double gap_share = 0.2;
   // Model length, >= 0. > 0: close_pairs can be asked for; 0: it cannot, and nothing is held for it.
   double d_hat = 0;
@@ -35,8 +34,8 @@ struct LineSearchStep : StepResult {
   // all: the share is cut, and `closest` names the pair.
   double gap_share = 0;
   bool gap_share_reduced = false;
-  // About this step: false where a gap has no room for rounding at all, so that the step is 0 (Outcome::below_rounding); raise
-  // min_separation.
+  // About this step: false where a gap has no room for rounding at all, so that the step is 0
+  // (Outcome::below_rounding); raise min_separation.
   bool assured = true;
   std::optional<Pair> closest;
 };
@@ -57,7 +56,8 @@ class ONSET_API LineSearch {
   LineSearch();
   // x_t0, dx: #V x 3 (or flat), model length; x_t1 = x_t0 + dx is formed here.
   // Throws as compute_collision_free_stepsize, and std::invalid_argument for gap_share or d_hat out of range.
-  LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx, const LineSearchOptions& options = {});
+  LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx,
+             const LineSearchOptions& options = {});
   ~LineSearch();
   LineSearch(LineSearch&&) noexcept;
   LineSearch& operator=(LineSearch&&) noexcept;

@@ -10,8 +10,8 @@
 #include <onset/line_search.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
-#include <onset/step_size.hpp>
 #include <onset/query.hpp>
 #include <onset/result.hpp>
 #include <onset/safe_distance.hpp>
+#include <onset/step_size.hpp>
 #include <onset/views.hpp>

@@ -64,6 +64,7 @@ ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 // Source: Courant, Friedrichs, Lewy, "Ueber die partiellen Differenzengleichungen der mathematischen Physik",
 // Mathematische Annalen 100, 1928, for the kind of bound; docs/theory.md, L49.
 ONSET_API StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
-                                          const ClosePairs& close, const Options& options = {}, double gap_share = 0.2);
+                                          const ClosePairs& close, const Options& options = {},
+                                          double gap_share = 0.2);
 
 }  // namespace onset

@@ -42,9 +42,7 @@ class Positions {
 
   std::ptrdiff_t rows() const { return rows_; }
   // 3, or what the caller passed by mistake.
-  std::ptrdiff_t cols() const {
-    return cols_;
-  }
+  std::ptrdiff_t cols() const { return cols_; }
   double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const {
     return data_[row * row_stride_ + col * col_stride_];
   }
@@ -57,8 +55,7 @@ class Positions {
   void assign(const double* data, std::ptrdiff_t rows, std::ptrdiff_t cols, std::ptrdiff_t row_stride,
               std::ptrdiff_t col_stride) {
     data_ = data;
-    if ((cols == 1 || rows == 1) && (rows * cols) % 3 == 0 &&
-        !(rows == 1 && cols == 3)) {  // flat
+    if ((cols == 1 || rows == 1) && (rows * cols) % 3 == 0 && !(rows == 1 && cols == 3)) {  // flat
       const std::ptrdiff_t stride = cols == 1 ? row_stride : col_stride;
       rows_ = rows * cols / 3, cols_ = 3, row_stride_ = 3 * stride, col_stride_ = stride;
     } else {

@@ -47,7 +47,8 @@ constexpr Quick kOpen{false, EdgeFace::apart}, kApart{true, EdgeFace::apart};
 // The ends are on different sides of the plane: the line meets the face iff it passes all sides on one side.
 Quick through(const Vec (&e)[2], const Vec (&f)[3]) {
   const Vec d = e[1] - e[0], r[3] = {f[0] - e[0], f[1] - e[0], f[2] - e[0]};
-  const double R = std::max(std::max(largest_component(r[0]), largest_component(r[1])), largest_component(r[2]));
+  const double R =
+      std::max(std::max(largest_component(r[0]), largest_component(r[1])), largest_component(r[2]));
   const double bound = volume_bound(R, R, largest_component(d));
   int positive = 0, negative = 0;
   for (int i = 0; i < 3; ++i) {
@@ -70,7 +71,8 @@ Quick quick_answer(const EdgeAndFace& pair) {
   const Vec f[3] = {point(pair.f[0]), point(pair.f[1]), point(pair.f[2])};
   const Vec a = f[1] - f[0], b = f[2] - f[0], c0 = e[0] - f[0], c1 = e[1] - f[0];
   const Vec n = cross(a, b);
-  const double bound = volume_bound(largest_component(a), largest_component(b), std::max(largest_component(c0), largest_component(c1)));
+  const double bound = volume_bound(largest_component(a), largest_component(b),
+                                    std::max(largest_component(c0), largest_component(c1)));
   const int s0 = certain_sign(dot(n, c0), bound), s1 = certain_sign(dot(n, c1), bound);
   if (s0 * s1 > 0) return kApart;
   if (s0 * s1 < 0) return through(e, f);

@@ -37,7 +37,8 @@ struct Differences {
     double least = INFINITY, most = -INFINITY, farthest = 0;
     for (int i = 0; i < count; ++i) {
       const double h = dot(m, corner[i]);
-      least = std::min(least, h), most = std::max(most, h), farthest = std::max(farthest, largest_component(corner[i]));
+      least = std::min(least, h), most = std::max(most, h),
+      farthest = std::max(farthest, largest_component(corner[i]));
     }
     const double limit = reach * (1 + 0x1p-48) + 0x1p-48 * largest_component(m) * farthest + 0x1p-1000;
     return least > limit || most < -limit;

@@ -83,7 +83,7 @@ VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
 // Finds features and directions within 2^-98 rho, which costs a margin 2^-98 rho^2 / distance: below 4u rho
 // for distances above 2^-47 rho, while for others 0 is close enough a bound (docs/theory.md, T8).
 void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
-                 Bounds& bounds) {
+                    Bounds& bounds) {
   using V = VecOf<DoubleDouble>;
   const Plane<DoubleDouble> plane(d);
   const auto towards = [&](const V& n) { return dot(n, d.q).hi < 0 ? DoubleDouble(-1.0) * n : n; };

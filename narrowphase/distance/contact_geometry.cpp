@@ -155,8 +155,8 @@ Geometry precise_geometry(const ExactPair& pair, double t, bool parting, bool od
 
 }  // namespace
 
-ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
-                           bool parting) {
+ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices,
+                                 double t, bool parting) {
   const ExactPair pair = exact_pair(kind, motion, vertices);
   Geometry f;
   if (!wide_geometry(pair, t, f)) f = precise_geometry(pair, t, parting, odd(motion.axes));
@@ -169,15 +169,16 @@ ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std:
   return r;
 }
 
-void contact_geometries(InstructionSet kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
-                    const double* t, const bool* parting, std::size_t count, ContactGeometry* out) {
+void contact_geometries(InstructionSet kernel, PairKind kind, const Motion& motion,
+                        const std::array<int, 4>* vertices, const double* t, const bool* parting,
+                        std::size_t count, ContactGeometry* out) {
   const KernelsOfKind& kernels = kernels_for(kernel).of_kind[int(kind)];
   constexpr std::size_t kAtOnce = 64;
   KernelContact found[kAtOnce];
   KernelPairs pairs{};
   pairs.x = motion.x.data();
   for (std::size_t first = 0; first < count; first += kAtOnce) {
-    pairs.vertices = reinterpret_cast<const int (*)[4]>(vertices + first);
+    pairs.vertices = reinterpret_cast<const int(*)[4]>(vertices + first);
     pairs.count = int(std::min(kAtOnce, count - first));
     kernels.contact_geometry(pairs, t + first, found);
     for (int i = 0; i < pairs.count; ++i) {

@@ -28,11 +28,12 @@ struct ContactGeometry {
 // Computes them at time t, until which the pair is apart; the weights give p1 - p2 within about 20u rho, rho
 // the largest corner difference. `parting`: the pair is in contact at t = 0, so its past lies on the side
 // that it moves to.
-ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices, double t,
-                           bool parting);
+ContactGeometry contact_geometry(PairKind kind, const Motion& motion, const std::array<int, 4>& vertices,
+                                 double t, bool parting);
 
 // The same for `count` pairs of one kind, ordinary ones in lanes.
-void contact_geometries(InstructionSet kernel, PairKind kind, const Motion& motion, const std::array<int, 4>* vertices,
-                    const double* t, const bool* parting, std::size_t count, ContactGeometry* out);
+void contact_geometries(InstructionSet kernel, PairKind kind, const Motion& motion,
+                        const std::array<int, 4>* vertices, const double* t, const bool* parting,
+                        std::size_t count, ContactGeometry* out);
 
 }  // namespace onset

@@ -29,7 +29,8 @@ inline void closest_direction(const State<V, K>& s, V t, bool maximum_norm, V (&
 template <class V, int K>
 inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm, V (&g0)[K], V (&g1)[K]) {
   for (int k = 0; k < K; ++k) g0[k] = dot(w, s.c[0][k]), g1[k] = dot(w, s.c[1][k]);
-  const V thr = V::all(4.25 * kU) * s.rho + separation_wanted(s) * norm_factor(w, maximum_norm) * V::all(1 + 0x1p-49);
+  const V thr =
+      V::all(4.25 * kU) * s.rho + separation_wanted(s) * norm_factor(w, maximum_norm) * V::all(1 + 0x1p-49);
   return fixed_certificate(g0, g1, thr, s.t);
 }
 
@@ -37,7 +38,8 @@ inline V certify_fixed(const State<V, K>& s, const V (&w)[3], bool maximum_norm,
 // choice bounds |w_b|. The quadratic of the corners' least coefficients is below every w(s).c_k(s)
 // (docs/theory.md, L11).
 template <class V, int K>
-inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm, const V (&g0)[K], const V (&g1)[K]) {
+inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm, const V (&g0)[K],
+                        const V (&g1)[K]) {
   V turned[3], wb[3];
   for (int a = 0; a < 3; ++a) turned[a] = w[a] - s.w_prev[a];
   const V largest = max(abs(turned[0]), max(abs(turned[1]), abs(turned[2])));
@@ -56,7 +58,8 @@ inline V certify_moving(const State<V, K>& s, const V (&w)[3], bool maximum_norm
   V b0, b1, b2;
   for (int k = 0; k < K; ++k) {
     const V h0 = dot(wb, s.c[0][k]), h1 = dot(wb, s.c[1][k]);
-    const V here[3] = {lerp(g0[k], g1[k], s.t), V::all(0.5) * (lerp(g0[k], g1[k], tb) + lerp(h0, h1, s.t)), lerp(h0, h1, tb)};
+    const V here[3] = {lerp(g0[k], g1[k], s.t), V::all(0.5) * (lerp(g0[k], g1[k], tb) + lerp(h0, h1, s.t)),
+                       lerp(h0, h1, tb)};
     b0 = k == 0 ? here[0] : min(here[0], b0);
     b1 = k == 0 ? here[1] : min(here[1], b1);
     b2 = k == 0 ? here[2] : min(here[2], b2);
@@ -127,17 +130,22 @@ inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResul
 
 // A verdict of -1 means that the lane goes on.
 template <int K>
-inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const KernelPairs& pairs, int (&verdict)[4]) {
+inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const KernelPairs& pairs,
+                  int (&verdict)[4]) {
   const int contact = bits(check.contact), stuck = bits(check.stuck);
   const int done = bits(s.t >= D4::all(1)), beyond = bits(s.t > D4::all(pairs.t_max));
   const int spent = bits(s.checks >= D4::all(static_cast<double>(pairs.max_checks)));
   for (int l = 0; l < 4; ++l) {
     const int bit = 1 << l;
     verdict[l] = -1;
-    if ((done | beyond) & bit) verdict[l] = int(Verdict::free);
-    else if (contact & bit) verdict[l] = int(Verdict::contact);
-    else if (spent & bit) verdict[l] = int(Verdict::max_checks);
-    else if (stuck & bit) verdict[l] = int(Verdict::stalled);
+    if ((done | beyond) & bit)
+      verdict[l] = int(Verdict::free);
+    else if (contact & bit)
+      verdict[l] = int(Verdict::contact);
+    else if (spent & bit)
+      verdict[l] = int(Verdict::max_checks);
+    else if (stuck & bit)
+      verdict[l] = int(Verdict::stalled);
   }
 }
 
@@ -154,7 +162,8 @@ inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4
     for (int i = 0; i < 4; ++i)
       for (int a = 0; a < 3; ++a) largest = max(abs(p.p[end][i][a]), largest);
   const V gap = dist - s.d;
-  const V rounding = (V::all(pairs.storing) * largest + V::all(pairs.storing > 0 ? kStoredLeast : 0)) / s.unit;
+  const V rounding =
+      (V::all(pairs.storing) * largest + V::all(pairs.storing > 0 ? kStoredLeast : 0)) / s.unit;
   const V wanted = V::all(pairs.gap_share) * gap + V::all(kStoredRoundings) * rounding;
   const V most = V::all(0.5 * (1 + pairs.gap_share)) * apart;
   unsure = unsure | (gap - apart > V::all(0x1p-10) * apart) | (most < wanted);
@@ -170,7 +179,8 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   closest_direction(s, s.t, maximum_norm, w, dist);
   const V e7 = V::all(7.25 * kU) * s.rho;
   // (w.c - error) / |w|*, with the dual norm, is a lower bound of the distance (docs/theory.md, L17).
-  V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) - s.d * V::all(1 + 0x1p-50);
+  V apart = (least(w, s.c[0]) - e7) / norm_factor(w, maximum_norm) * V::all(1 - 0x1p-49) -
+            s.d * V::all(1 + 0x1p-50);
   auto unsure = apart <= zero<V>();
   if (pairs.gap_share > 0 || pairs.storing > 0) {
     const V kept = kept_of(pairs, rows, s, dist, apart, unsure);
@@ -204,7 +214,8 @@ inline void restore(const KernelResume* resume, const int (&positions)[4], State
   double t[4], separation[4], delta[4], slow[4], checks[4];
   for (int l = 0; l < 4; ++l) {
     const KernelResume& r = resume[positions[l]];
-    t[l] = r.t, separation[l] = r.separation, delta[l] = r.delta, slow[l] = -r.patience, checks[l] = static_cast<double>(r.checks);
+    t[l] = r.t, separation[l] = r.separation, delta[l] = r.delta, slow[l] = -r.patience,
+    checks[l] = static_cast<double>(r.checks);
   }
   s.t = D4::load(t);
   s.d = D4::load(separation);
@@ -236,8 +247,8 @@ struct Pending {
   }
 };
 template <int K>
-inline void refill(const KernelPairs& pairs, const int* subset, int first, int count, const KernelResume* resume,
-                   Pending<K>& pending, KernelResult* results) {
+inline void refill(const KernelPairs& pairs, const int* subset, int first, int count,
+                   const KernelResume* resume, Pending<K>& pending, KernelResult* results) {
   int rows[4], verdict[4] = {-1, -1, -1, -1};
   for (int l = 0; l < 4; ++l) {
     pending.owner[l] = first + l < count ? first + l : count - 1;
@@ -270,7 +281,8 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
   while (true) {
     for (int l = 0; l < 4; ++l) {
       if (owner[l] >= 0) continue;
-      for (; pending.waiting == 0 && next < count; next += 4) refill(pairs, subset, next, count, resume, pending, results);
+      for (; pending.waiting == 0 && next < count; next += 4)
+        refill(pairs, subset, next, count, resume, pending, results);
       if (pending.waiting == 0) break;
       const int from = __builtin_ctz(static_cast<unsigned>(pending.waiting));
       pending.waiting &= pending.waiting - 1;

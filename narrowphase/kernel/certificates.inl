@@ -93,7 +93,8 @@ inline V root_near(const V (&x)[4], V start) {
   const V c2_twice = c2 + c2, c3_thrice = three * c3;
   V s = start;
   for (int i = 0; i < kHalleySteps; ++i) {
-    const V f = ((c3 * s + c2) * s + c1) * s + x[0], slope = (c3_thrice * s + c2_twice) * s + c1, bend = c3_thrice * s + c2;
+    const V f = ((c3 * s + c2) * s + c1) * s + x[0], slope = (c3_thrice * s + c2_twice) * s + c1,
+            bend = c3_thrice * s + c2;
     s = s - f * slope / (slope * slope - f * bend);
   }
   return s;

@@ -95,7 +95,8 @@ struct InsideFunctions {
   V n[3], u, v, big_n, eu, ev, en;
 };
 template <class V>
-inline void set_inside(const RelativeMotion<V>& r, V time, V width, V mq, V ma, V mb, InsideFunctions<V>& out) {
+inline void set_inside(const RelativeMotion<V>& r, V time, V width, V mq, V ma, V mb,
+                       InsideFunctions<V>& out) {
   V q[3], a[3], b[3], qb[3], aq[3];
   for (int i = 0; i < 3; ++i) {
     q[i] = lerp(r.q[0][i], r.q[1][i], time);
@@ -106,7 +107,8 @@ inline void set_inside(const RelativeMotion<V>& r, V time, V width, V mq, V ma, 
   cross(q, b, qb);
   cross(a, q, aq);
   out.big_n = dot(out.n, out.n), out.u = dot(out.n, qb), out.v = dot(out.n, aq);
-  const V each = (V::all(kInsideError) + V::all(kInsideSlope) * width) * ((abs(out.n[0]) + abs(out.n[1])) + abs(out.n[2]));
+  const V each = (V::all(kInsideError) + V::all(kInsideSlope) * width) *
+                 ((abs(out.n[0]) + abs(out.n[1])) + abs(out.n[2]));
   out.eu = each * (mq * mb) + underflow<V>(), out.ev = each * (ma * mq) + underflow<V>();
   out.en = each * (ma * mb) + underflow<V>();
 }
@@ -125,7 +127,8 @@ inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
   const V half = V::all(4) * error / abs(slope) + V::all(0x1p-52);
   const V lo = max(root - half, zero<V>()), hi = min(root + half, one<V>());
   const V at_lo = cubic_at(f, lo), at_hi = cubic_at(f, hi);
-  const auto changes = ((at_lo > error) & (zero<V>() - at_hi > error)) | ((at_hi > error) & (zero<V>() - at_lo > error));
+  const auto changes =
+      ((at_lo > error) & (zero<V>() - at_hi > error)) | ((at_hi > error) & (zero<V>() - at_lo > error));
   const V width = max(hi - root, root - lo) * V::all(1 + 0x1p-50);
 
   InsideFunctions<V> at;

@@ -25,7 +25,8 @@ inline void geometry_at(const RelativeMotion<V>& r, V t, Geometry<V>& f) {
     b[i] = lerp(r.b[0][i], r.b[1][i], t);
   }
   const V longest = sqrt(max(squared_size(r.a), squared_size(r.b)));
-  const V edge_noise = V::all(4 * kU) * longest, noise = V::all(12 * kU) * (sqrt(squared_size(r.q)) + (longest + longest));
+  const V edge_noise = V::all(4 * kU) * longest,
+          noise = V::all(12 * kU) * (sqrt(squared_size(r.q)) + (longest + longest));
 
   // The plane is built from the longer edge; the second round takes back what the first lost to a thin
   // primitive.
@@ -58,7 +59,8 @@ inline void geometry_at(const RelativeMotion<V>& r, V t, Geometry<V>& f) {
   V apart[3], moved[3], n[3];
   for (int i = 0; i < 3; ++i) {
     apart[i] = sign * ((q[i] - f.u * a[i]) - f.v * b[i]);
-    moved[i] = sign * (((r.q[1][i] - f.u * r.a[1][i]) - f.v * r.b[1][i]) - ((r.q[0][i] - f.u * r.a[0][i]) - f.v * r.b[0][i]));
+    moved[i] = sign * (((r.q[1][i] - f.u * r.a[1][i]) - f.v * r.b[1][i]) -
+                       ((r.q[0][i] - f.u * r.a[0][i]) - f.v * r.b[0][i]));
   }
   cross(along, across, n);
   normalise(n);
@@ -91,7 +93,8 @@ inline void contact_geometry_all(const KernelPairs& pairs, const double* t, Kern
     for (int l = 0; l < 4 && first + l < pairs.count; ++l) {
       KernelContact& out = contacts[first + l];
       out.ordinary = ordinary >> l & 1;
-      const double weights[2][4] = {{1, -(1 - u[l] - v[l]), -u[l], -v[l]}, {1 - u[l], u[l], -(1 - v[l]), -v[l]}};
+      const double weights[2][4] = {{1, -(1 - u[l] - v[l]), -u[l], -v[l]},
+                                    {1 - u[l], u[l], -(1 - v[l]), -v[l]}};
       for (int i = 0; i < 4; ++i) out.weight[i] = weights[K == 4][i];
       for (int i = 0; i < 3; ++i) out.normal[i] = n[i][l];
       out.gap = gap[l] * unit[l];

@@ -35,7 +35,8 @@ template <class Rows>
 inline F8 float_separation(const KernelPairs& pairs, Rows rows) {
   const double beyond = pairs.cull_t_max < 1 ? pairs.reach : 0;
   double of_pair[8];
-  for (int l = 0; l < 8; ++l) of_pair[l] = (pairs.separation[rows[l]] + pairs.cull_beyond + beyond) * pairs.scale;
+  for (int l = 0; l < 8; ++l)
+    of_pair[l] = (pairs.separation[rows[l]] + pairs.cull_beyond + beyond) * pairs.scale;
   return to_float(D4::load(of_pair), D4::load(of_pair + 4)) * F8::all(1 + 0x1p-22f);
 }
 
@@ -61,7 +62,8 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
   }
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < K; ++k)
-      for (int a = 0; a < 3; ++a) out.c[end][k][a] = to_float(lanes[0][end][k][a] * scale, lanes[1][end][k][a] * scale);
+      for (int a = 0; a < 3; ++a)
+        out.c[end][k][a] = to_float(lanes[0][end][k][a] * scale, lanes[1][end][k][a] * scale);
   out.d = float_separation(pairs, rows);
   out.error = V::all(7 * 0x1p-24f) * rho_of(out.c) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
 }
@@ -75,7 +77,8 @@ inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& 
   V p[2][4][3], of_vertex[4];
   for (int i = 0; i < 4; ++i) {
     const float* row[8];
-    for (int l = 0; l < 8; ++l) row[l] = pairs.rounded + static_cast<long long>(pairs.vertices[rows[l]][i]) * 8;
+    for (int l = 0; l < 8; ++l)
+      row[l] = pairs.rounded + static_cast<long long>(pairs.vertices[rows[l]][i]) * 8;
     V x[7];
     transpose(row, x);
     for (int a = 0; a < 3; ++a) p[0][i][a] = x[a], p[1][i][a] = x[4 + a];
@@ -87,13 +90,15 @@ inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& 
   out.d = float_separation(pairs, rows);
   const V of_positions = K == 3 ? of_vertex[0] + max(of_vertex[1], max(of_vertex[2], of_vertex[3]))
                                 : max(of_vertex[0], of_vertex[1]) + max(of_vertex[2], of_vertex[3]);
-  out.error = (V::all((is_cut ? 16 : 7) * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) + V::all(0x1p-140f);
+  out.error = (V::all((is_cut ? 16 : 7) * 0x1p-24f) * rho_of(out.c) + of_positions) * V::all(1 + 0x1p-20f) +
+              V::all(0x1p-140f);
 }
 
 // Tells whether the direction that turns linearly from w0 at t = 0 to w1 at t = 1 separates throughout: for
 // each corner x0, x2 > 0 and x1 > -sqrt(x0 x2) (docs/theory.md, L12, L24).
 template <class V, int K>
-inline typename V::Mask separates(const V (&c0)[K][3], const V (&c1)[K][3], const V (&w0)[3], const V (&w1)[3], V m0, V m2) {
+inline typename V::Mask separates(const V (&c0)[K][3], const V (&c1)[K][3], const V (&w0)[3],
+                                  const V (&w1)[3], V m0, V m2) {
   const V half = V::all(0.5f), m1 = half * (m0 + m2) * V::all(1 + 0x1p-20f);
   auto apart = m0 == m0;
   for (int k = 0; k < K; ++k) {
@@ -193,10 +198,13 @@ template <int K, class Rows>
 inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
   using V = F8;
   FloatPairs<K> s;
-  if (!refined && pairs.rounded != nullptr) rounded_corners(pairs, rows, s);
-  else float_corners(pairs, rows, s);
+  if (!refined && pairs.rounded != nullptr)
+    rounded_corners(pairs, rows, s);
+  else
+    float_corners(pairs, rows, s);
   V d = s.d;
-  if (pairs.gap_share > 0) d = d + V::all(static_cast<float>(pairs.gap_share) * (1 + 0x1p-20f)) * initial_gap(s.c[0], s.error);
+  if (pairs.gap_share > 0)
+    d = d + V::all(static_cast<float>(pairs.gap_share) * (1 + 0x1p-20f)) * initial_gap(s.c[0], s.error);
   V w0[3], w1[3];
   cheap_direction(s.c[0], w0);
   cheap_direction(s.c[1], w1);

@@ -108,11 +108,13 @@ inline void spanning_edges(const V (&c)[3][3], V (&e1)[3], V (&e2)[3]) {
 // Takes the boundary's direction or the hull's normal, whichever has the larger margin min_k w.c_k: no inside
 // test is needed.
 template <class V, int K>
-inline void best_direction(const V (&c)[K][3], const Nearest<V>& nearest, const V (&e1)[3], const V (&e2)[3], V (&w)[3]) {
+inline void best_direction(const V (&c)[K][3], const Nearest<V>& nearest, const V (&e1)[3], const V (&e2)[3],
+                           V (&w)[3]) {
   for (int a = 0; a < 3; ++a) w[a] = nearest.f[a];
   // Inside a segment w is made perpendicular to it twice, so that its error is relative to the edge and not
   // to the gap.
-  const V inverse = select(nearest.inside, one<V>() / select(nearest.inside, nearest.ee, one<V>()), zero<V>());
+  const V inverse =
+      select(nearest.inside, one<V>() / select(nearest.inside, nearest.ee, one<V>()), zero<V>());
   for (int pass = 0; pass < 2; ++pass) {
     const V along = dot(w, nearest.e) * inverse;
     for (int a = 0; a < 3; ++a) w[a] = w[a] - along * nearest.e[a];

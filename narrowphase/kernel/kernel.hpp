@@ -90,7 +90,8 @@ struct KernelsOfKind {
   int (*cull)(const KernelPairs&, int* survivors);
   // Advances the pairs subset[0..count) from t = 0, or from resume[0..count); results are in the order of
   // subset.
-  void (*advance)(const KernelPairs&, const int* subset, int count, const KernelResume* resume, KernelResult*);
+  void (*advance)(const KernelPairs&, const int* subset, int count, const KernelResume* resume,
+                  KernelResult*);
   // Sets touched_by of results of `advance` that are contacts without separation.
   void (*certify)(const KernelPairs&, const int* subset, int count, KernelResult* results);
   // Finds contact points, normals, gaps and speeds at the times t; separations are not read.

@@ -6,27 +6,20 @@ namespace onset {
 namespace ONSET_ISA {
 namespace {
 
-#include "narrowphase/kernel/direction.inl"
-
-#include "narrowphase/kernel/maximum_norm.inl"
-
-#include "narrowphase/kernel/certificates.inl"
-
-#include "narrowphase/kernel/gather.inl"
-
-#include "narrowphase/kernel/state.inl"
-
 #include "narrowphase/kernel/advance.inl"
-
-#include "narrowphase/kernel/cull.inl"
-
+#include "narrowphase/kernel/certificates.inl"
 #include "narrowphase/kernel/contact_certificate.inl"
-
 #include "narrowphase/kernel/contact_geometry.inl"
+#include "narrowphase/kernel/cull.inl"
+#include "narrowphase/kernel/direction.inl"
+#include "narrowphase/kernel/gather.inl"
+#include "narrowphase/kernel/maximum_norm.inl"
+#include "narrowphase/kernel/state.inl"
 
 // K corners: 3 of a vertex-face pair, 4 of two edges.
 template <int K>
-constexpr KernelsOfKind kKernels{cull_all<K>, advance_all<K>, certify_all<K>, contact_geometry_all<K>, closest_direction_of<K>};
+constexpr KernelsOfKind kKernels{cull_all<K>, advance_all<K>, certify_all<K>, contact_geometry_all<K>,
+                                 closest_direction_of<K>};
 
 }  // namespace
 }  // namespace ONSET_ISA

@@ -93,7 +93,8 @@ inline V least_inside(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3], co
 
 // The best direction, of Euclidean length 1, and the largest component of the closest point found.
 template <class V, int K>
-inline V closest_direction_in_maximum_norm(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3], V (&w)[3]) {
+inline V closest_direction_in_maximum_norm(const V (&c)[K][3], const V (&e1)[3], const V (&e2)[3],
+                                           V (&w)[3]) {
   V margin = V::all(-0x1p1000), least = V::all(0x1p1000), n[3];
   for (V& x : w) x = zero<V>();
   for (int a = 0; a < 3; ++a) {

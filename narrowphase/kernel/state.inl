@@ -1,6 +1,5 @@
 // Kernel text: the state of a lane, and how it is set up.
 
-
 // Lengths are scaled so that the largest corner component is in [1, 2).
 template <class V, int K>
 struct State {
@@ -11,14 +10,15 @@ struct State {
   V d, delta;
   V unit;
   V t, t_prev, w_prev[3];
-  V dist;                // upper bound of the distance at t
+  V dist;  // upper bound of the distance at t
   V slow, checks;
 };
 template <int K>
 constexpr int kFields = sizeof(State<D4, K>) / (4 * sizeof(double));
 
 template <class V>
-inline V norm_factor(const V (&w)[3], bool maximum_norm) {  // dual norm of a direction of Euclidean length <= 1 + 5u
+inline V norm_factor(const V (&w)[3],
+                     bool maximum_norm) {  // dual norm of a direction of Euclidean length <= 1 + 5u
   return maximum_norm ? (abs(w[0]) + abs(w[1])) + abs(w[2]) : one<V>();
 }
 template <class V, int K>
@@ -51,7 +51,8 @@ inline void set_cubic(State<V, K>& s, const V (&e1)[2][3], const V (&e2)[2][3], 
     const auto better = k == 0 ? here >= zero<V>() : here < bound;
     bound = k == 0 ? here : min(here, bound);
     for (int end = 0; end < 2; ++end)
-      for (int a = 0; a < 3; ++a) corner[end][a] = k == 0 ? s.c[end][k][a] : select(better, s.c[end][k][a], corner[end][a]);
+      for (int a = 0; a < 3; ++a)
+        corner[end][a] = k == 0 ? s.c[end][k][a] : select(better, s.c[end][k][a], corner[end][a]);
   }
   V n00[3], n01[3], n10[3], n11[3], mixed[3];
   cross(e1[0], e2[0], n00);

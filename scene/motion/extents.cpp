@@ -13,7 +13,9 @@ double Extents::largest() const {
 Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
   Extents r;
   const PrimitiveFilter& filter = *mesh.filter;
-  const auto listed = [&](Primitive kind) { return filter.all ? nullptr : &filter.moving[std::size_t(kind)]; };
+  const auto listed = [&](Primitive kind) {
+    return filter.all ? nullptr : &filter.moving[std::size_t(kind)];
+  };
   auto edge = largest_swept(mesh.edges, listed(Primitive::edge), m);
   auto face = largest_swept(mesh.faces, listed(Primitive::face), m);
   if (filter.has_static()) {

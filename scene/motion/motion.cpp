@@ -18,11 +18,12 @@ constexpr std::size_t kGrain = 4096;
 
 void check_shape(const char* name, int num_vertices, const Positions& x) {
   if (x.cols() == 3 && x.rows() == num_vertices) return;
-  std::string why = std::string(name) + " has " + std::to_string(x.rows()) + " rows of " + std::to_string(x.cols()) +
-                    " coordinates; the mesh has " + std::to_string(num_vertices) +
+  std::string why = std::string(name) + " has " + std::to_string(x.rows()) + " rows of " +
+                    std::to_string(x.cols()) + " coordinates; the mesh has " + std::to_string(num_vertices) +
                     " vertices and needs one row of 3 for each";
   if (x.rows() == 3 && x.cols() == num_vertices)
-    why += std::string(": pass ") + name + ".transpose(), or Positions(" + name + ".data(), #V) where it is column-major";
+    why += std::string(": pass ") + name + ".transpose(), or Positions(" + name +
+           ".data(), #V) where it is column-major";
   throw std::invalid_argument(why);
 }
 

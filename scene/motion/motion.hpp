@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "base/assert.hpp"
 #include "base/aligned.hpp"
+#include "base/assert.hpp"
 #include "onset/result.hpp"
 #include "onset/views.hpp"
 #include "scene/motion/static_motion.hpp"
@@ -36,8 +36,7 @@ struct Motion {
   // Whether the rows of static vertices are those of `static_part`, bit for bit, at both ends.
   bool rows_last = false;
   // Null where no static primitive takes part, or status is not free.
-  std::shared_ptr<const StaticMotion>
-      static_part;
+  std::shared_ptr<const StaticMotion> static_part;
 
   const double* t0(int v) const {
     ONSET_ASSERT(v >= 0 && v < num_vertices);
@@ -68,7 +67,9 @@ bool any_across(int first, int count, Same&& same) {
 // Returns how many of the four vertices of a pair are on its first side.
 inline int points_of_first_side(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
 // Compares exactly; zeros of either sign are alike.
-inline bool at_one_place(const double* x, const double* y) { return x[0] == y[0] && x[1] == y[1] && x[2] == y[2]; }
+inline bool at_one_place(const double* x, const double* y) {
+  return x[0] == y[0] && x[1] == y[1] && x[2] == y[2];
+}
 
 // Says whether a vertex of one side is where one of the other side is, at both ends: MeshData::weld.
 bool is_seam(const Motion& m, PairKind kind, const std::array<int, 4>& vertices);

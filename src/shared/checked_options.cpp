@@ -1,10 +1,11 @@
-#include "scene/motion/extents.hpp"
 #include "src/shared/checked_options.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+
+#include "scene/motion/extents.hpp"
 
 namespace onset {
 namespace {
@@ -71,7 +72,8 @@ Accuracy accuracy_of(const MeshData& mesh, const Motion& motion, const Options& 
 }
 
 void note(const Accuracy& accuracy, Stats& stats) {
-  stats.tolerance = accuracy.tolerance, stats.extent = accuracy.extent, stats.error_bound = accuracy.error_bound;
+  stats.tolerance = accuracy.tolerance, stats.extent = accuracy.extent,
+  stats.error_bound = accuracy.error_bound;
 }
 
 }  // namespace onset

@@ -67,10 +67,11 @@ void add_if_close(const CloseInput& in, PairKind kind, IdPair ids, std::vector<C
 
 Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& input, Budget& budget) {
   const std::size_t most = std::size_t(input.options.memory_limit / std::int64_t(sizeof(ClosePair)));
-  auto all = gather<ClosePair>(candidates, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
-                               [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<ClosePair>& close) {
-                                 for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
-                               });
+  auto all = gather<ClosePair>(
+      candidates, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+      [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<ClosePair>& close) {
+        for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
+      });
   if (budget.outcome() != Outcome::free) all.found.clear();
   parallel_sort(all.found.begin(), all.found.end(), [](const ClosePair& p, const ClosePair& q) {
     return std::tie(p.kind, p.a, p.b) < std::tie(q.kind, q.a, q.b);

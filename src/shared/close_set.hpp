@@ -2,8 +2,8 @@
 #pragma once
 
 #include "onset/close_pairs.hpp"
-#include "src/shared/visit_pairs.hpp"
 #include "scene/pair_source.hpp"
+#include "src/shared/visit_pairs.hpp"
 
 namespace onset {
 

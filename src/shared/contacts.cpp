@@ -29,7 +29,8 @@ void fill_geometry(const Motion& motion, InstructionSet instruction_set, Contact
 
 void put(const PairResult& result, Contact& contact) {
   contact.toi = result.toi, contact.toi_hi = result.toi_hi, contact.step_limit = result.step_limit;
-  contact.tolerance = result.tolerance, contact.outcome = result.outcome, contact.certainty = result.certainty;
+  contact.tolerance = result.tolerance, contact.outcome = result.outcome,
+  contact.certainty = result.certainty;
 }
 
 void put(const ContactGeometry& geometry, Contact& contact) {

@@ -25,10 +25,11 @@ constexpr double kShrinksUpTo = 0.5;
 //
 // For a limiting pair, the result is then the first of the active set; what the sample found counts whatever
 // the boxes say. With a window, t_max is where the window of the first contact found ends.
-double shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& narrow, const Options& options, Collect collect,
-                         Budget& budget, Limits& sampled) {
+double shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& narrow, const Options& options,
+                       Collect collect, Budget& budget, Limits& sampled) {
   if (!narrow.uses_t_max()) return 1;
-  sampled = traverse_pairs(*setup.broad, narrow, Collect::first, 1, budget, sampled_stride(*setup.broad)).limits;
+  sampled =
+      traverse_pairs(*setup.broad, narrow, Collect::first, 1, budget, sampled_stride(*setup.broad)).limits;
   if (!sampled.contact) return 1;
   sampled.stored = sampled.clear = {};  // the second traversal finds them
   const PairResult& first = sampled.contact->result;
@@ -37,10 +38,9 @@ double shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& na
   const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
   const double t_max = collect == Collect::all ? latest_time(first) + options.window : limit;
   if (t_max > kShrinksUpTo) return std::min(t_max, 1.0);
-  BroadPhaseInput shrunk =
-      collect == Collect::all
-          ? broad_phase_input(mesh.data(), setup.motion, options, setup.reach, t_max, BoxTest::both_ends)
-          : *setup.tree;
+  BroadPhaseInput shrunk = collect == Collect::all ? broad_phase_input(mesh.data(), setup.motion, options,
+                                                                       setup.reach, t_max, BoxTest::both_ends)
+                                                   : *setup.tree;
   shrunk.t_max = t_max;
   shrunk.test = BoxTest::both_ends;
   setup.broad->refit(shrunk);
@@ -77,7 +77,8 @@ std::size_t most_contacts(const Options& options) {
   return std::size_t(options.memory_limit / kBytesAContact);
 }
 
-TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect, Budget& budget, Stats& stats) {
+TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect,
+                              Budget& budget, Stats& stats) {
   const double begun = setup.clock.seconds();
   const TraversalBounds limited = collect == Collect::all ? bounds(options) : TraversalBounds{};
   NarrowPhaseInput input{mesh.data(), setup.motion, setup.accuracy.tolerance, setup.accuracy.extent, options};

@@ -11,6 +11,7 @@ std::size_t most_contacts(const Options& options);
 
 // Decides the candidates of `setup` that can matter to what is collected, and fills counts and times of
 // `stats`. It may shrink the boxes of `setup`.
-TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect, Budget& budget, Stats& stats);
+TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect,
+                              Budget& budget, Stats& stats);
 
 }  // namespace onset

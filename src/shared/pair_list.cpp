@@ -32,7 +32,8 @@ void PairList::traverse(PairKind kind, std::size_t first, std::size_t last, cons
   }
 }
 
-bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most, Budget& budget) {
+bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most,
+               Budget& budget) {
   struct Task {
     NarrowPhaseScratch scratch;
     std::vector<std::vector<IdPair>> kept;
@@ -68,8 +69,8 @@ bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, st
   return room >= 0;
 }
 
-StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs, const Options& options,
-                   double gap_share, Budget& budget, double upper) {
+StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs,
+                         const Options& options, double gap_share, Budget& budget, double upper) {
   StepResult r;
   const Clock clock;
   const MeshData& data = mesh.data();

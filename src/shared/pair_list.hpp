@@ -37,11 +37,12 @@ struct CulledList {
 
 // Fills all lists in one traversal of `broad`, each in the order of ids. Returns false, and leaves the lists
 // empty, where they would hold more than `most` pairs in all. It ends early where the budget is spent.
-bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most, Budget& budget);
+bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most,
+               Budget& budget);
 
 // Returns the largest step in [0, upper] on which each of these pairs keeps the share `gap_share` of its gap,
 // stored in doubles, with statistics. A motion that cannot be used is an outcome.
-StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs, const Options& options,
-                   double gap_share, Budget& budget, double upper = 1);
+StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs,
+                         const Options& options, double gap_share, Budget& budget, double upper = 1);
 
 }  // namespace onset

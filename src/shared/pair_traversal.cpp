@@ -1,4 +1,3 @@
-#include "scene/pair_source.hpp"
 #include "src/shared/pair_traversal.hpp"
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "base/radix_sort.hpp"
 #include "broadphase/motion_box.hpp"
+#include "scene/pair_source.hpp"
 
 namespace onset {
 namespace {
@@ -61,8 +61,8 @@ constexpr std::size_t kHeldByATask = 1024;
 
 class PairTraversal {
  public:
-  PairTraversal(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max, Budget& budget,
-       std::size_t stride, const TraversalBounds& bounds)
+  PairTraversal(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max,
+                Budget& budget, std::size_t stride, const TraversalBounds& bounds)
       : pairs_(pairs),
         narrow_(narrow),
         collect_(collect),
@@ -111,7 +111,8 @@ class PairTraversal {
     void process(const IdPair* pairs, std::size_t count) {
       ONSET_ASSERT(count <= kBatchSize);
       const std::size_t known = results.size();
-      traversal.narrow_.process(kind, pairs, count, {traversal.first_t_max_, traversal.t_max()}, scratch, results);
+      traversal.narrow_.process(kind, pairs, count, {traversal.first_t_max_, traversal.t_max()}, scratch,
+                                results);
       if (traversal.bounds_.whole != nullptr) keep_candidates_of(*traversal.bounds_.whole, known);
       if (results.size() == known) return;
       scratch.stats.contacts += std::int64_t(results.size() - known);
@@ -239,7 +240,8 @@ bool stored_before(const FoundPair& x, const FoundPair& y) {
                                                         : limits_before(x, y);
 }
 bool clears_later(const FoundPair& x, const FoundPair& y) {
-  return x.result.clear_from != y.result.clear_from ? x.result.clear_from > y.result.clear_from : before(x, y);
+  return x.result.clear_from != y.result.clear_from ? x.result.clear_from > y.result.clear_from
+                                                    : before(x, y);
 }
 template <class Before>
 void keep_first(std::optional<FoundPair>& first, const FoundPair& other, Before&& comes_before) {
@@ -262,8 +264,9 @@ bool earlier(const FoundPair& x, const FoundPair& y) {
   return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);
 }
 
-TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max,
-                    Budget& budget, std::size_t stride, const TraversalBounds& bounds) {
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect,
+                               double t_max, Budget& budget, std::size_t stride,
+                               const TraversalBounds& bounds) {
   TraversalResult result;
   PairTraversal traversal(pairs, narrow, collect, t_max, budget, stride, bounds);
   traversal.run(PairKind::vertex_face, result.vertex_face);
@@ -298,7 +301,8 @@ void copy_counts(const TraversalResult& traversal, Stats& stats) {
   stats.max_checks_of_a_pair = std::max(traversal.vertex_face.most_checks, traversal.edge_edge.most_checks);
   for (std::size_t k = 0; k < stats.checks_histogram.size(); ++k)
     stats.checks_histogram[k] = traversal.vertex_face.histogram[k] + traversal.edge_edge.histogram[k];
-  stats.achieved_tolerance = std::max(traversal.vertex_face.achieved_tolerance, traversal.edge_edge.achieved_tolerance);
+  stats.achieved_tolerance =
+      std::max(traversal.vertex_face.achieved_tolerance, traversal.edge_edge.achieved_tolerance);
 }
 
 Pair to_pair(const Mesh& mesh, const FoundPair& f) {
@@ -330,8 +334,8 @@ Outcome outcome_of_step(PairOutcome outcome) {
 
 }  // namespace
 
-void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double t_max,
-                StepResult& r) {
+void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper,
+                double t_max, StepResult& r) {
   note_worst(mesh, traversal, r.stats);
   if (budget.outcome() != Outcome::free) {
     r.step = 0;
@@ -349,16 +353,19 @@ void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget
     if (contact.outcome != PairOutcome::initial_separating) r.toi_hi = contact.toi_hi;
   }
   const FoundPair* limiting = nullptr;
-  if (limits.stored && (limits.stored->result.stored_limit < upper || limits.stored->result.stored_limit == 0)) {
+  if (limits.stored &&
+      (limits.stored->result.stored_limit < upper || limits.stored->result.stored_limit == 0)) {
     limiting = &*limits.stored;
     r.step = limiting->result.stored_limit;
     r.outcome = outcome_of_step(limiting->result.outcome);
   }
-  if (r.step > 0 && limits.clear && limits.clear->result.clear_from > r.step) limiting = &*limits.clear, r.step = 0;
+  if (r.step > 0 && limits.clear && limits.clear->result.clear_from > r.step)
+    limiting = &*limits.clear, r.step = 0;
   if (r.step > 0 && limits.clear) r.shortest = limits.clear->result.clear_from;
   if (limiting == nullptr) return;
   // Only rounding holds back at once a pair that starts apart, or parts.
-  if (r.step == 0 && limiting->result.outcome != PairOutcome::initial_contact) r.outcome = Outcome::below_rounding;
+  if (r.step == 0 && limiting->result.outcome != PairOutcome::initial_contact)
+    r.outcome = Outcome::below_rounding;
   r.limiting = to_pair(mesh, *limiting);
 }
 

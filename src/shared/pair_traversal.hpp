@@ -70,8 +70,9 @@ struct TraversalBounds {
 // true, but not all. Pairs certified apart up to `t_max` may be dropped. The culls keep to `t_max` as given,
 // advancement to what it shrinks to, so that whether a pair that spends its checks far from contact is
 // reported does not depend on the number of threads.
-TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect, double t_max,
-                    Budget& budget, std::size_t stride = 1, const TraversalBounds& bounds = {});
+TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect,
+                               double t_max, Budget& budget, std::size_t stride = 1,
+                               const TraversalBounds& bounds = {});
 
 // Sets up the narrow phase for a step that is to be stored, on which each pair keeps the share `gap_share` of
 // its gap. `rounding` is rounding_of_distances(motion).
@@ -79,7 +80,9 @@ NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, c
                                    const Options& options, double gap_share, double rounding);
 
 // Returns the latest time that exact arithmetic may still move the toi of a reported pair to.
-inline double latest_time(const PairResult& r) { return r.certainty == Certainty::certain ? r.toi_hi : r.toi; }
+inline double latest_time(const PairResult& r) {
+  return r.certainty == Certainty::certain ? r.toi_hi : r.toi;
+}
 
 // Orders by (toi, kind, a, b).
 bool earlier(const FoundPair& x, const FoundPair& y);
@@ -92,7 +95,7 @@ Pair to_pair(const Mesh& mesh, const FoundPair& found);
 void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats);
 // Sets the step in [0, upper], the outcome and the limiting pair by the limits of a traversal up to `t_max`.
 // A spent budget makes the step 0.
-void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper, double t_max,
-                StepResult& result);
+void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper,
+                double t_max, StepResult& result);
 
 }  // namespace onset

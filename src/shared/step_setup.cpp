@@ -1,5 +1,3 @@
-#include "scene/motion/extents.hpp"
-#include "scene/motion/storing.hpp"
 #include "src/shared/step_setup.hpp"
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "scene/motion/extents.hpp"
+#include "scene/motion/storing.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
 
@@ -58,8 +58,8 @@ StepSetup::~StepSetup() {
 
 void StepSetup::widen(double by) { tree->inflation = (tree->inflation + std::max(by, 0.0)) * (1 + 0x1p-50); }
 
-StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use,
-             Stats& stats, Budget& budget, double d_hat) {
+StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
+                     Use use, Stats& stats, Budget& budget, double d_hat) {
   const MeshData& data = mesh.data();
   motion = make_motion(data, x_t0, x_t1);
   stats.filter_counts = data.filter->counts;

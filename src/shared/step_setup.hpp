@@ -29,8 +29,7 @@ struct StepSetup {
 
   Motion motion;
   // Null where the motion is not usable (motion.status) or no budget is left.
-  std::shared_ptr<BroadPhase>
-      broad;
+  std::shared_ptr<BroadPhase> broad;
   // The boxes of the whole step, for contacts of the exact motion (`whole`) and as `broad` was made (`tree`),
   // which may since have shrunk to t_max.
   std::optional<BroadPhaseInput> whole, tree;
@@ -44,8 +43,8 @@ struct StepSetup {
   // Sets all this up and fills the statistics that are known before any pair is. No broad phase is made where
   // the budget is spent. With d_hat > 0, boxes reach as far as pairs of a distance set of d_hat, or of
   // `reach` if that is more, can be apart, with positions rounded to doubles.
-  StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use, Stats& stats,
-        Budget& budget, double d_hat = 0);
+  StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use,
+            Stats& stats, Budget& budget, double d_hat = 0);
   ~StepSetup();
 
   // Leaves the broad phase to the next call on the mesh.

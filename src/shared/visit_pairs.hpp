@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstddef>
 #include <mutex>
-#include <vector>
 #include <type_traits>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "scene/pair_source.hpp"

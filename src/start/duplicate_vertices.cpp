@@ -15,7 +15,8 @@ namespace onset {
 
 namespace {
 
-// Integers in the order of the finite numbers, -0 being 0: they compare alike on threads that flush subnormal numbers.
+// Integers in the order of the finite numbers, -0 being 0: they compare alike on threads that flush subnormal
+// numbers.
 std::int64_t ordered(double x) {
   std::int64_t bits;
   std::memcpy(&bits, &x, sizeof bits);

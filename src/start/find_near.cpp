@@ -17,8 +17,8 @@ class Near {
       for (int a = 0; a < 3; ++a) x_[std::size_t(4 * v + a)] = motion.t0(v)[a];
   }
 
-  // add_if_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times as
-  // much; but for what is welded.
+  // add_if_close leaves none out that is within its separation, Euclidean: in the maximum norm sqrt(3) times
+  // as much; but for what is welded.
   void add_near(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     std::vector<ClosePair> close;
     for (std::size_t i = 0; i < count; ++i)
@@ -50,9 +50,10 @@ class Near {
 Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most,
                              Budget& budget) {
   const Near near(mesh, rest.motion, options);
-  auto all = gather<NearPair>(*rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
-                              [&](PairKind kind, const IdPair* pairs, std::size_t count,
-                                  std::vector<NearPair>& found) { near.add_near(kind, pairs, count, found); });
+  auto all =
+      gather<NearPair>(*rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+                       [&](PairKind kind, const IdPair* pairs, std::size_t count,
+                           std::vector<NearPair>& found) { near.add_near(kind, pairs, count, found); });
   const auto order = [](const NearPair& p) {
     return std::array<int, 3>{int(p.pair.kind), p.pair.a, p.pair.b};
   };

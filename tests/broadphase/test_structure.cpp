@@ -133,7 +133,8 @@ TEST_CASE("a kernel is chosen by request, by environment or by what the machine 
   const std::string saved = old ? old : "";
   unsetenv("ONSET_KERNEL");
   CHECK(resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar);
-  CHECK(resolve_instruction_set(InstructionSet::automatic) == (has_avx2() ? InstructionSet::avx2 : InstructionSet::scalar));
+  CHECK(resolve_instruction_set(InstructionSet::automatic) ==
+        (has_avx2() ? InstructionSet::avx2 : InstructionSet::scalar));
   setenv("ONSET_KERNEL", "scalar", 1);
   CHECK(resolve_instruction_set(InstructionSet::automatic) == InstructionSet::scalar);
   if (has_avx2()) CHECK(resolve_instruction_set(InstructionSet::avx2) == InstructionSet::avx2);

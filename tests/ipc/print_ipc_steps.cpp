@@ -1,4 +1,5 @@
-// Answers of onset/compat/ipc.hpp for a scene in a file: #V, #F (int64), x_t0, x_t1 (#V x 3 doubles, rows), faces
+// Answers of onset/compat/ipc.hpp for a scene in a file: #V, #F (int64), x_t0, x_t1 (#V x 3 doubles, rows),
+// faces
 // (#F x 3 int32).
 //   print_ipc_steps FILE MIN_DISTANCE        prints: step, step of candidates, free, candidates, step without
 //   even vertices

@@ -38,7 +38,8 @@ static std::string wrong_outcome(const scenes::Query& query, const Options& opti
   if (outcome == PairOutcome::initial_separating) {
     const double rounding = 0x1p-45 * extent(query), start = distance(query, 0, options.norm).lo - rounding;
     for (double part : {0x1p-20, 0.125, 0.25, 0.5, 0.75, 1.0})
-      if (start > 0 && compare_distance(query, part * std::min(1.0, result.step_limit), start, options.norm) < 0)
+      if (start > 0 &&
+          compare_distance(query, part * std::min(1.0, result.step_limit), start, options.norm) < 0)
         return "called separating, but comes closer before step_limit";
   }
   return {};

@@ -12,7 +12,8 @@ struct Context {
   onset::Options options;
   onset::StartReport report;
   std::vector<bool> is_obstacle = std::vector<bool>(13), is_rigid = std::vector<bool>(5);
-  std::vector<std::uint32_t> groups = std::vector<std::uint32_t>(13, 1), masks = std::vector<std::uint32_t>(13, 1);
+  std::vector<std::uint32_t> groups = std::vector<std::uint32_t>(13, 1),
+                             masks = std::vector<std::uint32_t>(13, 1);
   std::vector<int> loose{12}, full_ids;
   int full_vertices = 20;
 

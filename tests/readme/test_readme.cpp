@@ -1,5 +1,5 @@
-// Runs the C++ of the documents (documented.hpp and documented_fragments.hpp are cut out of them): the README's Newton loop on a
-// cloth that falls onto a floor, fragments on a scene of their own.
+// Runs the C++ of the documents (documented.hpp and documented_fragments.hpp are cut out of them): the
+// README's Newton loop on a cloth that falls onto a floor, fragments on a scene of their own.
 #include <cmath>
 
 #include "documented.hpp"

@@ -32,12 +32,8 @@ CollisionRules declared(const std::vector<int>& points) {
   rules.points = points;
   return rules;
 }
-Mesh wire_and_point() {
-  return Mesh(3, Eigen::RowVector2i(0, 1), kNoFaces, declared({2}));
-}
-Mesh two_points() {
-  return Mesh(2, kNoEdges, kNoFaces, declared({1, 0}));
-}
+Mesh wire_and_point() { return Mesh(3, Eigen::RowVector2i(0, 1), kNoFaces, declared({2})); }
+Mesh two_points() { return Mesh(2, kNoEdges, kNoFaces, declared({1, 0})); }
 
 Eigen::MatrixXd random_points(Random& random, int count, int bits) {
   Eigen::MatrixXd x(count, 3);
@@ -338,8 +334,7 @@ TEST_CASE("points in distance sets, line searches, listed pairs and constraints"
     CHECK(s.step <= step.step);
     if (step.step > 0) {
       CHECK(s.step > 0);
-      CHECK(close_pairs(m.mesh, x + s.step * dx, d_hat, o).size() <=
-            search.close_pairs(s.step).size());
+      CHECK(close_pairs(m.mesh, x + s.step * dx, d_hat, o).size() <= search.close_pairs(s.step).size());
       CHECK(is_step_collision_free(m.mesh, x, x + s.step * dx, o));
     }
 

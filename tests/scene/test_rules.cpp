@@ -158,8 +158,8 @@ TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]
       const auto set = [&] {
         change_rules(mesh, [&](CollisionRules& r) { r.groups.resize(groups), r.masks.resize(masks); });
       };
-      CHECK_THROWS_WITH(set(), Contains(groups != 16 ? "groups has" : "masks has") &&
-                                   Contains("values for 16 vertices"));
+      CHECK_THROWS_WITH(
+          set(), Contains(groups != 16 ? "groups has" : "masks has") && Contains("values for 16 vertices"));
     }
   CHECK_THROWS_WITH(set_rule(mesh, &CollisionRules::excluded_bodies, {{0, 1}, {1, 2}}),
                     Contains("excluded_bodies row 1") && Contains("id 2"));
@@ -168,11 +168,12 @@ TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]
   CHECK(same_rules(mesh.rules(), before));
   CHECK(mesh.filter_counts().vertex_face.same_body == 0);
   CHECK(mesh.filter_counts().vertex_face.excluded == 0);
-  CHECK_THROWS_WITH(Mesh(16, kNoFaces, [] {
-                      CollisionRules r;
-                      r.points = {3, 16};
-                      return r;
-                    }()),
+  CHECK_THROWS_WITH(Mesh(16, kNoFaces,
+                         [] {
+                           CollisionRules r;
+                           r.points = {3, 16};
+                           return r;
+                         }()),
                     Contains("points row 1: vertex 16 is out of range"));
 }
 

@@ -1,5 +1,5 @@
-// Whatever floating-point environment the host has set, in the calling thread and in TBB's workers, answers are those of a clean
-// process, and the host finds its environment and flags as they were.
+// Whatever floating-point environment the host has set, in the calling thread and in TBB's workers, answers
+// are those of a clean process, and the host finds its environment and flags as they were.
 #if defined(__SSE2__)
 #include <fenv.h>
 #include <immintrin.h>
@@ -53,8 +53,8 @@ struct Answers {
   bool free = false;
 };
 
-Answers ask(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1, const Eigen::MatrixXd& dx,
-            double d_hat, const Options& options) {
+Answers ask(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
+            const Eigen::MatrixXd& dx, double d_hat, const Options& options) {
   Answers a;
   a.set = construct_active_set(mesh, x_t0, x_t1, options);
   Options exactly = options;
@@ -81,8 +81,8 @@ Answers ask(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd
 bool same(const ClosePairs& a, const ClosePairs& b) {
   return a.outcome == b.outcome && a.size() == b.size() &&
          std::equal(a.begin(), a.end(), b.begin(), [](const ClosePair& p, const ClosePair& q) {
-           return p.kind == q.kind && p.a == q.a && p.b == q.b && p.weights == q.weights && p.distance == q.distance &&
-                  p.gap == q.gap && p.separation == q.separation;
+           return p.kind == q.kind && p.a == q.a && p.b == q.b && p.weights == q.weights &&
+                  p.distance == q.distance && p.gap == q.gap && p.separation == q.separation;
          });
 }
 
@@ -94,12 +94,14 @@ void check_same(const Answers& a, const Answers& b) {
   CHECK(a.searched.gap_share == b.searched.gap_share);
   CHECK(same(a.close, b.close));
   CHECK(same(a.close_on_the_way, b.close_on_the_way));
-  CHECK((a.candidates.vertex_face == b.candidates.vertex_face && a.candidates.edge_edge == b.candidates.edge_edge));
+  CHECK((a.candidates.vertex_face == b.candidates.vertex_face &&
+         a.candidates.edge_edge == b.candidates.edge_edge));
   CHECK((a.safe == b.safe && a.safe_length == b.safe_length));
   CHECK(same_bytes(a.cfl, b.cfl));
   CHECK(a.constraints.value == b.constraints.value);
   CHECK(a.crossings.size() == b.crossings.size());
-  CHECK((a.report.touching.size() == b.report.touching.size() && a.report.copied_vertices == b.report.copied_vertices));
+  CHECK((a.report.touching.size() == b.report.touching.size() &&
+         a.report.copied_vertices == b.report.copied_vertices));
   CHECK(a.free == b.free);
 }
 

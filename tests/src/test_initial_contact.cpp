@@ -71,7 +71,8 @@ TEST_CASE("closer than the separation: receding goes free, approaching gives ste
           "[unit]") {
   CHECK(outcome({.25, .25, .05}, {.25, .25, 1}, .1) == PairOutcome::initial_separating);
   CHECK(outcome({.25, .25, .05}, {.25, .25, .06}, .1) == PairOutcome::initial_separating);
-  CHECK(outcome({.25, .25, .05}, {.45, .25, .05}, .1) == PairOutcome::initial_separating);  // keeps its distance
+  CHECK(outcome({.25, .25, .05}, {.45, .25, .05}, .1) ==
+        PairOutcome::initial_separating);  // keeps its distance
   CHECK(outcome({.25, .25, .05}, {.25, .25, .04}, .1) == PairOutcome::initial_contact);
 
   const StepResult receding = step_of(.05, .5, .1);

@@ -43,8 +43,9 @@ TEST_CASE("steps along one direction approach a contact and never reach it", "[u
     CHECK_FALSE(r.gap_share_reduced);
     CHECK(r.gap_share == gap_share);
     x = x + r.step * (s.target - x);
-    CHECK(x(3, 2) >= gap_share * gap);          // after rounding to doubles
-    CHECK(x(3, 2) <= (gap_share + (1 - gap_share) / 4) * gap * (1 + 1e-9));  // the stop rule: a quarter of the rest
+    CHECK(x(3, 2) >= gap_share * gap);  // after rounding to doubles
+    CHECK(x(3, 2) <=
+          (gap_share + (1 - gap_share) / 4) * gap * (1 + 1e-9));  // the stop rule: a quarter of the rest
     gap = x(3, 2);
   }
 }

@@ -50,7 +50,8 @@ ActiveSet in_other_scene(ActiveSet set, double unit, const SignedPermutation& p)
   return set;
 }
 
-// Where a step ends depends on how coarse positions are where the scene lies, and on nothing else but the unit.
+// Where a step ends depends on how coarse positions are where the scene lies, and on nothing else but the
+// unit.
 void expect_same_step(StepResult a, const StepResult& b, double unit) {
   a.rounding *= unit;
   if (a.rounding == b.rounding) {

@@ -1,6 +1,6 @@
 // The step is the earliest time of the active set, and the three calls agree.
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 
 #include "tests/catch.hpp"
 #include "tests/src/support/scene_set.hpp"

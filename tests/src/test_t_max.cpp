@@ -1,6 +1,6 @@
 // The step's shrunk t_max: bit for bit the minimum of the active set.
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <onset/onset.hpp>
 
 #include "tests/catch.hpp"
@@ -32,8 +32,7 @@ TEST_CASE("the step is the active set's earliest toi, for every seed, size and s
     for (std::size_t i = 0; i < set.size(); ++i)
       if (set[i].outcome != PairOutcome::initial_separating) earliest = std::min(earliest, set[i].toi);
     contacts += earliest < 1;
-    if (!any_parts(set))
-      REQUIRE((step.toi == earliest || (earliest == 1 && step.toi == INFINITY)));
+    if (!any_parts(set)) REQUIRE((step.toi == earliest || (earliest == 1 && step.toi == INFINITY)));
   }
   CHECK(contacts > 20);
 }
@@ -61,9 +60,7 @@ TEST_CASE("exact: the step is the earliest contact between adjacent doubles, at 
       REQUIRE(vertices_of(set) == found);
       REQUIRE((step.outcome == Outcome::free) == (set.size() == 0));
       REQUIRE(is_step_collision_free(mesh, soup.x_t0, soup.x_t1, options) == (set.size() == 0));
-      if (set.size() == 0 ||
-          any_parts(set))
-        continue;
+      if (set.size() == 0 || any_parts(set)) continue;
       const Contact& earliest = *set.earliest();
       REQUIRE(earliest.toi == step.toi);
       REQUIRE(earliest.toi_hi == step.toi_hi);

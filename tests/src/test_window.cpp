@@ -40,8 +40,7 @@ TEST_CASE("a window gives the rows of the full set within it, bit for bit", "[pr
         CHECK(same(set, within(full, window)));
         CHECK(set.outcome == full.outcome);
         CHECK(set.stats.contacts.total() == std::int64_t(set.size()));
-        if (set.size() > 0 && window < 1)
-          CHECK(set.complete_until == set.earliest()->toi + window);
+        if (set.size() > 0 && window < 1) CHECK(set.complete_until == set.earliest()->toi + window);
         rows += int(set.size()), dropped += int(full.size() - set.size());
       }
   }

@@ -105,8 +105,7 @@ TEST_CASE("windows and memory limits leave out no contact before complete_until"
                   << ", exactness " << int(limited.exactness) << ", complete until " << set.complete_until
                   << ", rows " << set.size());
     CHECK(wrong == "");
-    if (full.size() > 0 && set.size() > 0)
-      CHECK(set.earliest()->toi == full.earliest()->toi);
+    if (full.size() > 0 && set.size() > 0) CHECK(set.earliest()->toi == full.earliest()->toi);
     CHECK(is_step_collision_free(mesh, scene.x_t0, scene.x_t1, limited) ==
           is_step_collision_free(mesh, scene.x_t0, scene.x_t1, options));
     cut += set.size() < full.size();
@@ -114,8 +113,10 @@ TEST_CASE("windows and memory limits leave out no contact before complete_until"
   CHECK(10 * cut > oracle::fuzz(120));
 }
 
-TEST_CASE("few checks, values of t_max and windows give the same bytes for any number of threads and either instruction set",
-          "[determinism]") {
+TEST_CASE(
+    "few checks, values of t_max and windows give the same bytes for any number of threads and either "
+    "instruction set",
+    "[determinism]") {
   Random random(oracle::fuzz_seed() * 1000 + 62);
   for (int i = 0; i < oracle::fuzz(24); ++i) {
     const scenes::Scene moving =
@@ -132,7 +133,8 @@ TEST_CASE("few checks, values of t_max and windows give the same bytes for any n
     INFO("scene " << i << ", checks " << o.max_checks << ", exactness " << int(o.exactness) << ", narrow "
                   << int(o.narrow_phase) << ", window " << o.window << ", " << one.set.size() << " rows");
     for (int threads : {2, 4, 4}) CHECK(same(one, ask(calls, scene, o, threads)));
-    o.instruction_set = o.instruction_set == InstructionSet::scalar ? InstructionSet::automatic : InstructionSet::scalar;
+    o.instruction_set =
+        o.instruction_set == InstructionSet::scalar ? InstructionSet::automatic : InstructionSet::scalar;
     CHECK(same(one, ask(calls, scene, o, 1)));
   }
 }

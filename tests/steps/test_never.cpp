@@ -29,13 +29,13 @@ Answers ask(const Query& query, const Options& options) {
 }  // namespace
 
 TEST_CASE("a pair that never touches does so at infinity", "[unit]") {
-  for (Exactness level :
-       {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+  for (Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact}) {
     Options options;
     options.exactness = level;
     for (const Query& query : {over_a_face(1, 0.5), over_a_face(1, 1), over_a_face(1, 2)}) {
       const Answers a = ask(query, options);
-      CHECK((a.query.outcome == PairOutcome::free && a.query.toi == INFINITY && a.query.step_limit == INFINITY));
+      CHECK((a.query.outcome == PairOutcome::free && a.query.toi == INFINITY &&
+             a.query.step_limit == INFINITY));
       CHECK((a.step.outcome == Outcome::free && a.step.step == 1 && a.step.toi == INFINITY));
       CHECK((a.step.toi_hi == INFINITY && !a.step.limiting));
       CHECK((a.set.size() == 0 && a.set.complete_until == INFINITY && a.free));
@@ -44,14 +44,13 @@ TEST_CASE("a pair that never touches does so at infinity", "[unit]") {
 }
 
 TEST_CASE("a pair that touches at the end does so at 1, and the step ends before", "[unit]") {
-  for (Exactness level :
-       {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+  for (Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact}) {
     Options options;
     options.exactness = level;
     const Answers a = ask(over_a_face(1, 0), options);
     CHECK((a.query.outcome == PairOutcome::contact && a.query.toi <= 1 && a.query.toi > 0.99));
-    CHECK((a.step.outcome == Outcome::contact && a.step.step < 1 && a.step.step > 0.99 &&
-           a.step.limiting && a.step.limiting->a == 0));
+    CHECK((a.step.outcome == Outcome::contact && a.step.step < 1 && a.step.step > 0.99 && a.step.limiting &&
+           a.step.limiting->a == 0));
     CHECK((a.step.toi <= 1 && a.step.toi > 0.99));
     CHECK((a.set.size() == 1 && a.set[0].toi == a.step.toi && !a.free));
     if (level == Exactness::exact) CHECK((a.query.toi == 1 && a.step.toi == 1 && a.step.toi_hi == 1));

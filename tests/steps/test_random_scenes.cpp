@@ -46,9 +46,9 @@ void check_scene(const StepScene& scene, const Options& options, const More& wha
   counts.at_the_end += first.toi_lo == 1;
   const std::string broken = broken_promise(asked, calls, what.d_hat, what.gap_share);
   if (broken.empty()) return;
-  INFO(to_text(options) << ", d_hat " << what.d_hat << ", gap_share " << what.gap_share << ", points " << what.points
-                        << ", weld " << what.weld << ", thick " << what.thickness.size() << ", exact "
-                        << first.toi_lo << " " << first.toi_hi);
+  INFO(to_text(options) << ", d_hat " << what.d_hat << ", gap_share " << what.gap_share << ", points "
+                        << what.points << ", weld " << what.weld << ", thick " << what.thickness.size()
+                        << ", exact " << first.toi_lo << " " << first.toi_hi);
   FAIL_CHECK(broken);
 }
 
@@ -63,7 +63,8 @@ Counts check_scenes(int count, std::uint64_t seed, StepScene (*make)(scenes::Ran
   for (int i = 0; i < count; ++i) {
     const StepScene scene = make(random);
     Options options = random_options(scene, random);
-    More more{some_d_hat(scene, random), kGapShare, scenes::coin(random), scenes::integer(random, 0, 4) == 0, {}};
+    More more{
+        some_d_hat(scene, random), kGapShare, scenes::coin(random), scenes::integer(random, 0, 4) == 0, {}};
     if (scenes::coin(random)) more.gap_share = scenes::coin(random) ? 0 : scenes::uniform(random, 0, 0.99);
     if (scenes::integer(random, 0, 7) == 0 && options.norm == Norm::euclidean)
       options.min_separation = 0, more.thickness = random_thickness(scene, random);

@@ -19,8 +19,7 @@ void check_all_calls(const Query& query, Options options = {}) {
   const StepScene scene{positions(query.t0), positions(query.t1), elements.edges, elements.faces};
   const Calls calls(scene);
   INFO(to_text(query));
-  for (Exactness level :
-       {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+  for (Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact}) {
     options.exactness = level;
     const Asked asked{calls.mesh(), scene.x_t0, scene.x_t1, options, {}};
     const oracle::Truth truth = oracle::exact_within(query, options.min_separation, options.norm);

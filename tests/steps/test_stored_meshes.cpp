@@ -19,8 +19,8 @@ constexpr double kOffsets[] = {0, 1, 1e3, 1e5, 1e7, 1e9};
 constexpr int kPushes = 60;
 
 struct Bodies {
-  Scene scene;         // at rest
-  int first;           // rows of the first body; 0: there is one
+  Scene scene;             // at rest
+  int first;               // rows of the first body; 0: there is one
   bool is_static = false;  // the second body is static
 };
 

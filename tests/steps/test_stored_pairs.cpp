@@ -162,8 +162,8 @@ Counts push_all(int pairs, std::uint64_t seed, bool separated) {
     for (Call call : kCalls) push_on(kind, call, aim, offset, separation, random, counts);
   }
   std::printf(
-      "%d pairs pushed by every call: %lld pushes, %lld through, %lld within, %lld stuck, %lld stopped\n", pairs,
-      counts.pushes, counts.through, counts.within, counts.stuck, counts.stopped);
+      "%d pairs pushed by every call: %lld pushes, %lld through, %lld within, %lld stuck, %lld stopped\n",
+      pairs, counts.pushes, counts.through, counts.within, counts.stuck, counts.stopped);
   return counts;
 }
 

@@ -54,7 +54,8 @@ bool keeps(const Query& query, const Kept& kept, double end, bool contact, Norm 
 
 std::string broken_by_query(const Query& query, const Options& o, const Kept& kept, Random& random) {
   const QueryResult r = scenes::ccd(query, o);
-  const bool initial = r.outcome == PairOutcome::initial_contact || r.outcome == PairOutcome::initial_separating;
+  const bool initial =
+      r.outcome == PairOutcome::initial_contact || r.outcome == PairOutcome::initial_separating;
   if (!kept.beyond && !initial) return "starts within the separation, not said";
   if (kept.surely && (initial || r.toi == 0)) return "starts beyond the separation, and is stopped at once";
   if (r.step_limit > 0 && !keeps(query, kept, std::min(r.step_limit, 1.0), r.collides(), o.norm, random))

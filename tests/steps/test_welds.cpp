@@ -1,5 +1,5 @@
-// CollisionRules::weld: the copies of a seam's vertices count as one while they stay together, and as others when
-// not.
+// CollisionRules::weld: the copies of a seam's vertices count as one while they stay together, and as others
+// when not.
 #include <map>
 #include <onset/onset.hpp>
 

@@ -112,8 +112,8 @@ bool check(const Query& query, double d, double tolerance, bool closes) {
   Options options;
   options.min_separation = d;
   options.relative_tolerance = tolerance;
-  const ActiveSet set =
-      construct_active_set(tests::mesh_of(query.kind), tests::positions(query.t0), tests::positions(query.t1), options);
+  const ActiveSet set = construct_active_set(tests::mesh_of(query.kind), tests::positions(query.t0),
+                                             tests::positions(query.t1), options);
   if (set.size() == 0) return false;
   INFO(to_text(query));
   CAPTURE(d, set[0].toi, to_string(set[0].outcome), int(set[0].degenerate));
@@ -170,7 +170,8 @@ TEST_CASE("a vertex that falls on a face has the face's normal on its own side",
     const Query query{PairKind::vertex_face,
                       {{{0.25, 0.25, side}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
                       {{{0.25, 0.25, -side}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}};
-    const ActiveSet set = construct_active_set(tests::mesh_of(query.kind), tests::positions(query.t0), tests::positions(query.t1));
+    const ActiveSet set = construct_active_set(tests::mesh_of(query.kind), tests::positions(query.t0),
+                                               tests::positions(query.t1));
     REQUIRE(set.size() == 1);
     CHECK(set[0].normal == Point{0, 0, side});
     CHECK(set[0].weights == std::array<double, 4>{1, -0.5, -0.25, -0.25});
@@ -200,7 +201,8 @@ TEST_CASE("pairs without a cross product have the normal of their gap, or touchi
       for (int i = 0; i < scenes::first_body(q.kind); ++i) q.t0[i][2] = from;
       Options o;
       o.touching_may_pass_through = true;
-      const ActiveSet set = construct_active_set(tests::mesh_of(q.kind), tests::positions(q.t0), tests::positions(q.t1), o);
+      const ActiveSet set =
+          construct_active_set(tests::mesh_of(q.kind), tests::positions(q.t0), tests::positions(q.t1), o);
       REQUIRE(set.size() == 1);
       CAPTURE(scenes::name(q.kind), from);
       CHECK(set[0].normal == Point{0, 0, from == 1 ? 1.0 : -1.0});
@@ -217,7 +219,8 @@ TEST_CASE("pairs that meet along an edge or within a plane are divided across th
                     {{{0.25, 0, 2}, {0, 0, 0}, {1, 0, 1}, {-1, 0, 1}}},
                     {{{0.25, 0, 0.5}, {0, 0, 0}, {1, 0, 1}, {-1, 0, 1}}}};
   for (const Query& q : {ends, slide}) {
-    const ActiveSet set = construct_active_set(tests::mesh_of(q.kind), tests::positions(q.t0), tests::positions(q.t1));
+    const ActiveSet set =
+        construct_active_set(tests::mesh_of(q.kind), tests::positions(q.t0), tests::positions(q.t1));
     REQUIRE(set.size() == 1);
     CAPTURE(scenes::name(q.kind));
     CHECK(set[0].normal == Point{0, 0, 1});

@@ -43,8 +43,7 @@ Query turned(Query q) {
 // At all levels of certainty, with both kernels and both windings.
 void check_all(const Query& query, Past past, Options o, Counts& counts) {
   for (const Query& q : {query, turned(query)})
-    for (const Exactness level :
-         {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+    for (const Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact}) {
       o.exactness = level, o.instruction_set = InstructionSet::scalar, o.threads = 1;
       const Mesh mesh = mesh_of(q.kind);
       const Eigen::MatrixXd x0 = positions(q.t0), x1 = positions(q.t1);
@@ -57,8 +56,8 @@ void check_all(const Query& query, Past past, Options o, Counts& counts) {
       INFO(scenes::to_text(q));
       CAPTURE(int(level), o.min_separation, o.touching_may_pass_through);
       const Past here = set[0].outcome == PairOutcome::initial_separating ? Past::parting
-                        : set[0].outcome == PairOutcome::contact ? past
-                                                                   : Past::any;
+                        : set[0].outcome == PairOutcome::contact          ? past
+                                                                          : Past::any;
       RowCheck(q, set).check(here, counts);
     }
 }
@@ -283,8 +282,7 @@ TEST_CASE("the normal of a grazing contact is that of the side it touches from",
                 {{{0.125, 0.1875, 0.125}, {0, 0, 0}, {0, 1, 0.625}, {1, 0, 0}}},
                 {{{0.125, 0.3125, 0.125}, {0, 0, 0}, {0, 1, 0.375}, {1, 0, 0}}}};
   Options o;
-  for (const Exactness level :
-       {Exactness::conservative, Exactness::certify, Exactness::exact})
+  for (const Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact})
     for (const Query& query : {q, turned(q)}) {
       o.exactness = level;
       const ActiveSet set = active_set(query, o);

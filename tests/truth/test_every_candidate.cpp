@@ -14,9 +14,7 @@ using namespace onset;
 namespace {
 
 const char* name(Exactness level) {
-  return level == Exactness::exact     ? "exact"
-         : level == Exactness::certify ? "certify"
-                                            : "conservative";
+  return level == Exactness::exact ? "exact" : level == Exactness::certify ? "certify" : "conservative";
 }
 
 using Key = std::array<int, 3>;  // kind, a, b
@@ -89,8 +87,7 @@ void check_step(const std::string& folder, const scenes::RecordedStep& step) {
   CHECK(truth.candidates == candidates.vertex_face.size() + candidates.edge_edge.size());
   std::printf("%s: %zu candidates, %zu decided quickly, %zu contacts\n", step.name, truth.candidates,
               truth.quick, truth.contacts.size());
-  for (const Exactness level :
-       {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+  for (const Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact}) {
     options.exactness = level;
     const ActiveSet set = construct_active_set(mesh, recording.t0.x, recording.t1.x, options);
     const Differences d = compare(truth, set);

@@ -80,7 +80,8 @@ TEST_CASE("outcome and tolerance are as reported", "[property][oracle]") {
       }
 }
 
-TEST_CASE("no check beyond the budget, and the tolerance as reported where it is spent", "[property][oracle]") {
+TEST_CASE("no check beyond the budget, and the tolerance as reported where it is spent",
+          "[property][oracle]") {
   int over = 0, wrong = 0;
   for (const scenes::Family& family : scenes::families())
     for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {

@@ -133,9 +133,8 @@ TEST_CASE("a separation larger than the scene is contact at once", "[unit][oracl
       for (int i = 0; i < 10; ++i) {
         const Query query = family.make(kind, random);
         const QueryResult result = scenes::ccd(query, options);
-        const bool initial =
-            result.outcome == PairOutcome::initial_contact ||
-            result.outcome == PairOutcome::initial_separating;
+        const bool initial = result.outcome == PairOutcome::initial_contact ||
+                             result.outcome == PairOutcome::initial_separating;
         CHECK(initial);
         CHECK(result.toi == 0);
       }

@@ -5,9 +5,9 @@
 #include "tests/src/support/one_pair.hpp"
 
 using namespace onset;
+using scenes::Query;
 using tests::mesh_of;
 using tests::positions;
-using scenes::Query;
 
 namespace {
 

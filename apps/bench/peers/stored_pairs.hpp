@@ -14,8 +14,8 @@ class StoredPairs {
   ~StoredPairs();
   StoredPairs(const StoredPairs&) = delete;
 
-  // Finds and stores every candidate: motion, boxes, tree, pairs, nothing reused but the memory of the lists. In at most
-  // `threads` threads, each with lists of its own.
+  // Finds and stores every candidate: motion, boxes, tree, pairs, nothing reused but the memory of the lists.
+  // In at most `threads` threads, each with lists of its own.
   onset::PairCounts find(const onset::Positions& x_t0, const onset::Positions& x_t1, int threads);
 
  private:

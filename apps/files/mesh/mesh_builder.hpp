@@ -25,8 +25,8 @@ class MeshBuilder {
 
   // Throws InputError for what is not finite; `text`: what the file says, in quotes, may be empty.
   void vertex(const std::array<double, 3>& position, std::size_t line, const std::string& text = "");
-  // Ids from 0, which need not have been read yet. One corner makes a point, two a wire. Throw InputError for an
-  // element that repeats a vertex, has none, or has a negative id.
+  // Ids from 0, which need not have been read yet. One corner makes a point, two a wire. Throw InputError for
+  // an element that repeats a vertex, has none, or has a negative id.
   void face(const std::vector<std::int64_t>& ids, const Place& place);
   void polyline(const std::vector<std::int64_t>& ids, const Place& place);
   void point(std::int64_t id, const Place& place);

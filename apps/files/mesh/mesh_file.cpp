@@ -33,8 +33,7 @@ std::string way_out(const std::string& path, const std::string& ext) {
        {".gltf", ".glb", ".fbx", ".dae", ".3mf", ".usd", ".usda", ".usdc", ".usdz", ".abc", ".blend"})
     if (ext == known) return " is not read: export it as .obj or .ply, from Blender say";
   for (const char* known : {".stp", ".step", ".igs", ".iges", ".brep"})
-    if (ext == known)
-      return " is not read: mesh it with 'gmsh -2 " + path + " -o " + stem + ".stl'";
+    if (ext == known) return " is not read: mesh it with 'gmsh -2 " + path + " -o " + stem + ".stl'";
   return ext.empty() ? "no extension" : "unknown extension " + ext;
 }
 

@@ -13,7 +13,9 @@ namespace app {
 using Faces = Eigen::Matrix<long long, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-inline std::array<double, 3> point(const Points& x, int vertex) { return {x(vertex, 0), x(vertex, 1), x(vertex, 2)}; }
+inline std::array<double, 3> point(const Points& x, int vertex) {
+  return {x(vertex, 0), x(vertex, 1), x(vertex, 2)};
+}
 
 // Each of three corners or more, one after another.
 struct Polygons {
@@ -36,18 +38,18 @@ struct MeshFile {
   bool shares_vertices = true;       // STL: false, each corner is a vertex of its own
 };
 
-// The format is taken from the extension, whatever its case: .obj, .ply, .off, .stl. Throws InputError naming the
-// file, the line of a text, and the cause: missing, unreadable, another format and what converts it, a position that
-// is not three finite numbers, an index out of range, rows that are too few or too many.
+// The format is taken from the extension, whatever its case: .obj, .ply, .off, .stl. Throws InputError naming
+// the file, the line of a text, and the cause: missing, unreadable, another format and what converts it, a
+// position that is not three finite numbers, an index out of range, rows that are too few or too many.
 MeshFile read_mesh(const std::string& path);
 
 // The same for the bytes of a file of each format; `path` is for messages.
 //
-// Wavefront OBJ: v, f, l, p. Normals, textures, groups and materials are skipped, as are keywords that are not
-// OBJ's, with a note; curves, surfaces and calls of other files are refused.
+// Wavefront OBJ: v, f, l, p. Normals, textures, groups and materials are skipped, as are keywords that are
+// not OBJ's, with a note; curves, surfaces and calls of other files are refused.
 MeshFile read_obj(const std::string& path, std::string_view text);
-// PLY, ascii and binary of both endians: vertex, face, edge. Other elements are skipped, with a note; triangle
-// strips are refused.
+// PLY, ascii and binary of both endians: vertex, face, edge. Other elements are skipped, with a note;
+// triangle strips are refused.
 MeshFile read_ply(const std::string& path, std::string_view bytes);
 // OFF, ascii and binary.
 MeshFile read_off(const std::string& path, std::string_view bytes);

@@ -1,6 +1,6 @@
-// tinyobjloader 2.0 was tried in this place. Its numbers are approximate (two thirds of random doubles come back
-// changed), it wraps and truncates indices, and it does not know of continued lines: all that it would be asked for
-// had to be checked, or done, before.
+// tinyobjloader 2.0 was tried in this place. Its numbers are approximate (two thirds of random doubles come
+// back changed), it wraps and truncates indices, and it does not know of continued lines: all that it would
+// be asked for had to be checked, or done, before.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -21,10 +21,10 @@ bool has(const List& list, std::string_view word) {
 
 // What says how a mesh looks, or belongs to what is refused anyhow.
 constexpr std::string_view kLooks[] = {
-    "vt",       "vn",         "g",         "s",     "o",    "mg",   "usemtl", "mtllib", "usemap",
-    "maplib",   "bevel",      "c_interp",  "vp",    "lod",  "step", "deg",    "bmat",   "d_interp",
-    "cstype",   "shadow_obj", "trace_obj", "ctech", "parm", "trim", "hole",   "scrv",   "sp",
-    "stech",    "end",        "con",       "res"};
+    "vt",     "vn",       "g",      "s",          "o",         "mg",    "usemtl", "mtllib",
+    "usemap", "maplib",   "bevel",  "c_interp",   "vp",        "lod",   "step",   "deg",
+    "bmat",   "d_interp", "cstype", "shadow_obj", "trace_obj", "ctech", "parm",   "trim",
+    "hole",   "scrv",     "sp",     "stech",      "end",       "con",   "res"};
 // Shapes that are no polygons, and other files.
 constexpr std::string_view kOther[] = {"curv", "curv2", "surf", "bzp", "bsp", "cdc", "cdp", "call", "csh"};
 // Only these are continued on the next line: a name or comment that ends in '\' is none of our business.
@@ -35,7 +35,8 @@ class ObjReader {
   ObjReader(const std::string& path, std::string_view text) : mesh_(path, 1), lines_(without_mark(text)) {}
 
   MeshFile read() {
-    if (lines_.starts_with("\xFF\xFE") || lines_.starts_with("\xFE\xFF")) mesh_.fail(0, "UTF-16: save it as UTF-8");
+    if (lines_.starts_with("\xFF\xFE") || lines_.starts_with("\xFE\xFF"))
+      mesh_.fail(0, "UTF-16: save it as UTF-8");
     std::string_view line;
     while (lines_.next(line)) {
       number_ = lines_.number();
@@ -45,7 +46,8 @@ class ObjReader {
       statement();
     }
     if (skipped_ > 0)
-      mesh_.note("skipped " + counted(std::size_t(skipped_), "line") + " with keywords that are not OBJ's:" + keywords_);
+      mesh_.note("skipped " + counted(std::size_t(skipped_), "line") +
+                 " with keywords that are not OBJ's:" + keywords_);
     return mesh_.finish();
   }
 
@@ -91,7 +93,8 @@ class ObjReader {
     const std::size_t count = words_.size() - 1;
     const Place place{"vertex", mesh_.vertices(), number_};
     if (count == 2)
-      mesh_.fail(place, "has two coordinates: two dimensions are not supported yet, add a third coordinate of 0");
+      mesh_.fail(place,
+                 "has two coordinates: two dimensions are not supported yet, add a third coordinate of 0");
     std::array<double, 3> position{};
     const Words text(words_.begin() + 1, words_.end());
     for (std::size_t i = 0; i < count; ++i) {
@@ -141,8 +144,8 @@ class ObjReader {
     if (value > 0) return value - 1;
     if (value == 0) mesh_.fail(place, "has vertex index 0; the first vertex is 1");
     if (value < -mesh_.vertices())
-      mesh_.fail(place, "has vertex index " + std::string(index) + ", but only " + std::to_string(mesh_.vertices()) +
-                            " vertices come before it");
+      mesh_.fail(place, "has vertex index " + std::string(index) + ", but only " +
+                            std::to_string(mesh_.vertices()) + " vertices come before it");
     return mesh_.vertices() + value;
   }
 

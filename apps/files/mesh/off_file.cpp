@@ -35,7 +35,8 @@ class OffReader {
     if (take("C")) header_.values += 4;
     if (take("N")) header_.values += 3;
     if (!letters.empty())
-      mesh_.fail(line, quoted(word) + " is not read: vertices of three coordinates, with ST, C, N before OFF at most");
+      mesh_.fail(line, quoted(word) +
+                           " is not read: vertices of three coordinates, with ST, C, N before OFF at most");
     return word.substr(end + 3);
   }
 
@@ -74,7 +75,8 @@ class TextReader : OffReader {
     check_counts(vertices, faces, lines_.number(), lines_.left(), 6, 2);
     for (std::int64_t i = 0; i < vertices; ++i) vertex({"vertex", i, 0});
     for (std::int64_t i = 0; i < faces; ++i) face({"face", i, 0});
-    if (next()) mesh_.fail(lines_.number(), "more than the numbers of vertices and faces say: " + quoted(words_));
+    if (next())
+      mesh_.fail(lines_.number(), "more than the numbers of vertices and faces say: " + quoted(words_));
     return mesh_.finish();
   }
 
@@ -96,14 +98,16 @@ class TextReader : OffReader {
 
   std::int64_t count(std::string_view word) {
     const std::optional<std::int64_t> value = parse_whole(word);
-    if (!value || *value < 0) mesh_.fail(lines_.number(), "a number of elements expected, not " + quoted(word));
+    if (!value || *value < 0)
+      mesh_.fail(lines_.number(), "a number of elements expected, not " + quoted(word));
     return *value;
   }
 
   void vertex(Place place) {
     place = next_row(place);
     if (words_.size() == 2)
-      mesh_.fail(place, "has two coordinates: two dimensions are not supported yet, add a third coordinate of 0");
+      mesh_.fail(place,
+                 "has two coordinates: two dimensions are not supported yet, add a third coordinate of 0");
     std::array<double, 3> position{};
     for (std::size_t i = 0; i < words_.size(); ++i) {
       const std::optional<double> value = parse_double(words_[i]);

@@ -10,7 +10,8 @@ namespace {
 
 class TextBody : public PlyBody {
  public:
-  TextBody(const PlyHeader& header, const MeshBuilder& mesh) : mesh_(mesh), lines_(header.data, header.lines) {}
+  TextBody(const PlyHeader& header, const MeshBuilder& mesh)
+      : mesh_(mesh), lines_(header.data, header.lines) {}
 
   void begin_row(Place place) override {
     place_ = place;
@@ -52,7 +53,8 @@ class TextBody : public PlyBody {
     const std::string_view word = take();
     const std::optional<std::int64_t> value = parse_whole(word);
     if (!value || *value < 0 || std::size_t(*value) > words_.size() - next_)
-      mesh_.fail(place_, "says that list " + list.name + " has " + quoted(word) + " values: " + quoted(words_));
+      mesh_.fail(place_,
+                 "says that list " + list.name + " has " + quoted(word) + " values: " + quoted(words_));
     return *value;
   }
 
@@ -94,12 +96,18 @@ class BinaryBody : public PlyBody {
 
   std::int64_t whole(PlyType type) override {
     switch (type) {
-      case PlyType::int8: return take<std::int8_t>();
-      case PlyType::uint8: return take<std::uint8_t>();
-      case PlyType::int16: return take<std::int16_t>();
-      case PlyType::uint16: return take<std::uint16_t>();
-      case PlyType::int32: return take<std::int32_t>();
-      default: return take<std::uint32_t>();
+      case PlyType::int8:
+        return take<std::int8_t>();
+      case PlyType::uint8:
+        return take<std::uint8_t>();
+      case PlyType::int16:
+        return take<std::int16_t>();
+      case PlyType::uint16:
+        return take<std::uint16_t>();
+      case PlyType::int32:
+        return take<std::int32_t>();
+      default:
+        return take<std::uint32_t>();
     }
   }
 
@@ -112,8 +120,8 @@ class BinaryBody : public PlyBody {
   std::int64_t length(const PlyProperty& list) override {
     const std::int64_t length = whole(list.count_type);
     if (length < 0 || std::size_t(length) > rest_.size() / bytes_of(list.type))
-      mesh_.fail(place_, "says that list " + list.name + " has " + std::to_string(length) + " values, the file has " +
-                             std::to_string(rest_.size()) + " bytes left");
+      mesh_.fail(place_, "says that list " + list.name + " has " + std::to_string(length) +
+                             " values, the file has " + std::to_string(rest_.size()) + " bytes left");
     return length;
   }
 

@@ -1,5 +1,5 @@
-// CGAL 5.5's reader was in this place before: it drops edges, takes 16-bit indices for others, sizes what it reads by
-// counts that no file of that length can hold, and cannot tell the line of a fault.
+// CGAL 5.5's reader was in this place before: it drops edges, takes 16-bit indices for others, sizes what it
+// reads by counts that no file of that length can hold, and cannot tell the line of a fault.
 #include <algorithm>
 
 #include "files/mesh/mesh_file.hpp"
@@ -24,7 +24,8 @@ class PlyReader {
 
   MeshFile read() {
     const auto is_vertex = [](const PlyElement& e) { return e.name == "vertex"; };
-    if (std::none_of(header_.elements.begin(), header_.elements.end(), is_vertex)) mesh_.fail(0, "no element vertex");
+    if (std::none_of(header_.elements.begin(), header_.elements.end(), is_vertex))
+      mesh_.fail(0, "no element vertex");
     for (const PlyElement& element : header_.elements) {
       check_size(element);
       if (element.name == "vertex")
@@ -73,22 +74,25 @@ class PlyReader {
       const std::string name(1, "xyz"[axis]);
       const std::size_t k = find(e, name);
       if (k == e.properties.size() && axis == 2 && e.count > 0)
-        mesh_.fail(e.line, "no vertex property z: two dimensions are not supported yet, add a third coordinate of 0");
+        mesh_.fail(e.line,
+                   "no vertex property z: two dimensions are not supported yet, add a third coordinate of 0");
       if (k == e.properties.size()) mesh_.fail(e.line, "no vertex property " + name);
       if (e.properties[k].list) mesh_.fail(e.properties[k].line, "vertex property " + name + " is a list");
       roles[k] = axis;
     }
     std::array<double, 3> position{};
-    rows(e, "vertex", roles,
-         [&](int axis, const PlyProperty& p) { position[std::size_t(axis)] = body_->real(p.type); },
-         [&] { mesh_.vertex(position, body_->place().line, body_->text()); });
+    rows(
+        e, "vertex", roles,
+        [&](int axis, const PlyProperty& p) { position[std::size_t(axis)] = body_->real(p.type); },
+        [&] { mesh_.vertex(position, body_->place().line, body_->text()); });
   }
 
   void faces(const PlyElement& e) {
     const Roles roles = list_roles(e);
     if (e.count > 0 && !has_role(roles)) mesh_.fail(e.line, "no face property vertex_indices");
-    rows(e, "face", roles, [&](int, const PlyProperty& p) { read_ids(p); },
-         [&] { mesh_.face(ids_, body_->place()); });
+    rows(
+        e, "face", roles, [&](int, const PlyProperty& p) { read_ids(p); },
+        [&] { mesh_.face(ids_, body_->place()); });
   }
 
   // vertex1 and vertex2, or a list.
@@ -101,20 +105,22 @@ class PlyReader {
     for (std::size_t k = 0; k < none; ++k)
       if (roles[k] != kSkipped) check_index(e.properties[k], ends);
     if (ends) ids_.assign(2, 0);
-    rows(e, "edge", roles,
-         [&](int end, const PlyProperty& p) {
-           if (ends)
-             ids_[std::size_t(end)] = body_->whole(p.type);
-           else
-             read_ids(p);
-         },
-         [&] { mesh_.polyline(ids_, body_->place()); });
+    rows(
+        e, "edge", roles,
+        [&](int end, const PlyProperty& p) {
+          if (ends)
+            ids_[std::size_t(end)] = body_->whole(p.type);
+          else
+            read_ids(p);
+        },
+        [&] { mesh_.polyline(ids_, body_->place()); });
   }
 
   void others(const PlyElement& e) {
     if (e.name == "tristrips" && e.count > 0)
       mesh_.fail(e.line, "triangle strips are not read: write triangles, with MeshLab say");
-    rows(e, e.name.c_str(), Roles(e.properties.size(), kSkipped), [](int, const PlyProperty&) {}, [] {});
+    rows(
+        e, e.name.c_str(), Roles(e.properties.size(), kSkipped), [](int, const PlyProperty&) {}, [] {});
     if (e.count > 0) mesh_.note("skipped element " + e.name + ", " + counted(std::size_t(e.count), "row"));
   }
 

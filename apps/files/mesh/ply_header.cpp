@@ -89,7 +89,8 @@ class HeaderReader {
     PlyProperty p;
     p.list = words_.size() > 1 && words_[1] == "list";
     p.line = header_.lines;
-    if (words_.size() != (p.list ? 5u : 3u)) fail("a property has a type and a name, here is " + quoted(words_));
+    if (words_.size() != (p.list ? 5u : 3u))
+      fail("a property has a type and a name, here is " + quoted(words_));
     p.name = std::string(words_.back());
     p.type = type(p.name, words_[words_.size() - 2]);
     if (p.list) p.count_type = type(p.name, words_[2]);

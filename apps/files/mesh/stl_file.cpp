@@ -26,7 +26,8 @@ MeshFile read_binary(MeshBuilder mesh, std::string_view bytes) {
   for (std::size_t at = kHeader + kCount; at < bytes.size(); at += kRow) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::size_t first = at + 12 * (corner + 1);  // behind the normal
-      mesh.vertex({value_at<float>(bytes, first), value_at<float>(bytes, first + 4), value_at<float>(bytes, first + 8)},
+      mesh.vertex({value_at<float>(bytes, first), value_at<float>(bytes, first + 4),
+                   value_at<float>(bytes, first + 8)},
                   0);
     }
     mesh.face({id, id + 1, id + 2}, {"face", id / 3, 0});
@@ -35,8 +36,8 @@ MeshFile read_binary(MeshBuilder mesh, std::string_view bytes) {
   return mesh.finish();
 }
 
-// "facet normal", three "vertex" in a loop, "endfacet"; what a solid is called, or how often there is one, is all
-// the same.
+// "facet normal", three "vertex" in a loop, "endfacet"; what a solid is called, or how often there is one, is
+// all the same.
 class TextReader {
  public:
   TextReader(MeshBuilder mesh, std::string_view text) : mesh_(std::move(mesh)), lines_(text) {}
@@ -84,7 +85,8 @@ class TextReader {
   void end() {
     const Place place{"face", faces_++, lines_.number()};
     const std::int64_t corners = mesh_.vertices() - first_;
-    if (!in_facet_ || corners != 3) mesh_.fail(place, "has " + std::to_string(corners) + " corners, 3 expected");
+    if (!in_facet_ || corners != 3)
+      mesh_.fail(place, "has " + std::to_string(corners) + " corners, 3 expected");
     mesh_.face({first_, first_ + 1, first_ + 2}, place);
     in_facet_ = false;
   }
@@ -103,7 +105,8 @@ MeshFile read_stl(const std::string& path, std::string_view bytes) {
   MeshBuilder mesh(path, 0);
   const bool can_be_binary = bytes.size() >= kHeader + kCount;
   const std::uint64_t count = can_be_binary ? value_at<std::uint32_t>(bytes, kHeader) : 0;
-  if (can_be_binary && bytes.size() == kHeader + kCount + kRow * count) return read_binary(std::move(mesh), bytes);
+  if (can_be_binary && bytes.size() == kHeader + kCount + kRow * count)
+    return read_binary(std::move(mesh), bytes);
   std::vector<std::string_view> words;
   Lines lines(without_mark(bytes));
   std::string_view line;
@@ -111,9 +114,9 @@ MeshFile read_stl(const std::string& path, std::string_view bytes) {
   if (!words.empty() && (words[0] == "solid" || words[0] == "SOLID"))
     return TextReader(std::move(mesh), without_mark(bytes)).read();
   if (!can_be_binary) mesh.fail(0, "not an STL file");
-  mesh.fail(0, "not an STL file, or cut off: as a binary one it has " + std::to_string(count) + " faces, of " +
-                   std::to_string(kRow) + " bytes each, in " + std::to_string(bytes.size() - kHeader - kCount) +
-                   " bytes");
+  mesh.fail(0, "not an STL file, or cut off: as a binary one it has " + std::to_string(count) +
+                   " faces, of " + std::to_string(kRow) + " bytes each, in " +
+                   std::to_string(bytes.size() - kHeader - kCount) + " bytes");
 }
 
 }  // namespace app

@@ -44,7 +44,8 @@ onset::PairKind kind_from_path(const std::string& path) {
 
 onset::PairKind kind_of_file(const std::string& path, const std::string& name) {
   if (name.empty()) return kind_from_path(path);
-  return name == kind_name(onset::PairKind::vertex_face) ? onset::PairKind::vertex_face : onset::PairKind::edge_edge;
+  return name == kind_name(onset::PairKind::vertex_face) ? onset::PairKind::vertex_face
+                                                         : onset::PairKind::edge_edge;
 }
 
 }  // namespace app

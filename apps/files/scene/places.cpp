@@ -35,9 +35,10 @@ std::string corner(Eigen::Index v) {
 void check_still_together(const std::vector<Eigen::Index>& first, const MeshFile& t0, const MeshFile& t1) {
   for (std::size_t v = 0; v < first.size(); ++v)
     if (t1.positions.row(Eigen::Index(v)) != t1.positions.row(first[v]))
-      throw InputError(t0.path + " and " + t1.path + ": " + corner(first[v]) + " and " + corner(Eigen::Index(v)) +
-                       " are at one place in the first and not in the second, and STL does not tell whether they are "
-                       "one vertex: write .ply or .obj");
+      throw InputError(
+          t0.path + " and " + t1.path + ": " + corner(first[v]) + " and " + corner(Eigen::Index(v)) +
+          " are at one place in the first and not in the second, and STL does not tell whether they are "
+          "one vertex: write .ply or .obj");
 }
 
 // The element that a face becomes whose vertices are ids.

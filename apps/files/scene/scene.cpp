@@ -51,7 +51,8 @@ std::string difference(const MeshFile& a, const MeshFile& b) {
       return differing("wire", w, list(a.wires[w].data(), 2), list(b.wires[w].data(), 2));
   if (a.points.size() != b.points.size()) return counts("points", a.points.size(), b.points.size());
   for (std::size_t p = 0; p < a.points.size(); ++p)
-    if (a.points[p] != b.points[p]) return differing("point", p, list(&a.points[p], 1), list(&b.points[p], 1));
+    if (a.points[p] != b.points[p])
+      return differing("point", p, list(&a.points[p], 1), list(&b.points[p], 1));
   return "";
 }
 

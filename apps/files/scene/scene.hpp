@@ -17,8 +17,8 @@ struct Scene {
   bool welded = false;             // vertices at one place count as one (--weld)
 };
 
-// Throws InputError: what read_mesh throws, and elements (faces, wires, points) that differ, naming the first one.
-// Polygons are cut into triangles by their shape in the first file.
+// Throws InputError: what read_mesh throws, and elements (faces, wires, points) that differ, naming the first
+// one. Polygons are cut into triangles by their shape in the first file.
 Scene read_scene(const std::string& path_t0, const std::string& path_t1);
 
 }  // namespace app

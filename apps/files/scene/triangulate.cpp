@@ -40,7 +40,9 @@ class EarCutter {
   // Without the axis along which its normal (Newell's) is longest, so that it turns left.
   void flatten(std::size_t polygon) {
     const std::size_t begin = file_.polygons.begin(polygon), n = file_.polygons.corners_of(polygon);
-    const auto row = [&](std::size_t i) { return file_.positions.row(file_.polygons.corners[begin + i % n]); };
+    const auto row = [&](std::size_t i) {
+      return file_.positions.row(file_.polygons.corners[begin + i % n]);
+    };
     std::array<double, 3> normal{};
     for (std::size_t i = 0; i < n; ++i) {
       const auto a = row(i) - row(0), b = row(i + 1) - row(0);
@@ -53,7 +55,8 @@ class EarCutter {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     corners_.resize(n);
     for (std::size_t i = 0; i < n; ++i)
-      corners_[i] = normal[std::size_t(axis)] < 0 ? Point2{row(i)(v), row(i)(u)} : Point2{row(i)(u), row(i)(v)};
+      corners_[i] =
+          normal[std::size_t(axis)] < 0 ? Point2{row(i)(v), row(i)(u)} : Point2{row(i)(u), row(i)(v)};
   }
 
   // The first one with area and without other corners in it; else, where the polygon crosses itself or has no
@@ -85,7 +88,8 @@ class EarCutter {
     spent_ += tests;
     if (spent_ > kMost)
       throw InputError(file_.path + ": the polygon of face " + std::to_string(polygon) + " has " +
-                       std::to_string(corners_.size()) + " corners, too many to cut into triangles: write triangles");
+                       std::to_string(corners_.size()) +
+                       " corners, too many to cut into triangles: write triangles");
   }
 
   const MeshFile& file_;

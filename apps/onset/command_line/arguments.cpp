@@ -63,8 +63,9 @@ void add_accuracy(CLI::App& command, onset::Options& o) {
   add(command, "--max-checks", "COUNT",
       "Checks that one pair may cost, >= 1; then its time so far counts [10000]",
       [&o](const std::string& s) { o.max_checks = parse_whole("--max-checks", s, 1, INT64_MAX); });
-  command.add_flag("--touching-may-pass-through", o.touching_may_pass_through,
-                   "What touches at the start may leave in any direction, as if that were the side it came from");
+  command.add_flag(
+      "--touching-may-pass-through", o.touching_may_pass_through,
+      "What touches at the start may leave in any direction, as if that were the side it came from");
   add(command, "--min-separation", "LENGTH",
       "Pairs must stay farther apart than this (model length, >= 0) [0]",
       [&o](const std::string& s) { o.min_separation = parse_real("--min-separation", s, Zero::allowed); });
@@ -119,7 +120,9 @@ onset::Options to_options(const Arguments& a) {
       {"hash", onset::BroadPhaseMethod::hash},
       {"brute", onset::BroadPhaseMethod::brute}};
   static const std::map<std::string, onset::InstructionSet> kernels = {
-      {"auto", onset::InstructionSet::automatic}, {"scalar", onset::InstructionSet::scalar}, {"avx2", onset::InstructionSet::avx2}};
+      {"auto", onset::InstructionSet::automatic},
+      {"scalar", onset::InstructionSet::scalar},
+      {"avx2", onset::InstructionSet::avx2}};
   static const std::map<std::string, onset::Exactness> levels = {
       {"conservative", onset::Exactness::conservative},
       {"certify", onset::Exactness::certify},

@@ -9,7 +9,8 @@ namespace app {
 
 struct Arguments {
   onset::Options options;
-  std::string broad_phase = "auto", narrow_phase = "auto", kernel = "auto", certainty = "certify", norm = "euclidean";
+  std::string broad_phase = "auto", narrow_phase = "auto", kernel = "auto", certainty = "certify",
+              norm = "euclidean";
   std::string json, csv;  // a path, "-" for stdout, empty for none
 };
 
@@ -24,7 +25,8 @@ void add_kind(CLI::App& command, std::string& kind, const std::string& how = "")
 
 // Of two frames of a mesh.
 inline constexpr char kMeshHelp[] = "Mesh at the start of the step: .ply, .obj, .off or .stl";
-inline constexpr char kEndHelp[] = "The same mesh at its end: the same faces, wires and points in the same order";
+inline constexpr char kEndHelp[] =
+    "The same mesh at its end: the same faces, wires and points in the same order";
 
 // What the library takes. Throws UsageError where two outputs share one destination.
 onset::Options to_options(const Arguments& arguments);

@@ -36,7 +36,8 @@ void add_active_set(CLI::App& app, Run& run) {
   std::shared_ptr<Arguments> arguments;
   CLI::App* command = add_scene_command(
       app, run, "active-set", "Every pair that comes into contact between A and B, with its time of impact",
-      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit (vf: vertex and face; ee: "
+      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit "
+      "(vf: vertex and face; ee: "
       "edges in the order of igl::edges; w: weights of the vertices at the contact point; n: unit normal; "
       "speed < 0 closes)",
       [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {

@@ -52,17 +52,20 @@ void run_check(const Inputs& inputs) {
 void add_check(CLI::App& app, Run& run) {
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command = app.add_subcommand(
-      "check", "Whether a step can start at FILE: intersections, touching pairs, copied vertices and more, exactly");
+      "check",
+      "Whether a step can start at FILE: intersections, touching pairs, copied vertices and more, exactly");
   command->add_option("FILE", inputs->a, kMeshHelp)->required();
   command->add_option("END", inputs->b, "The end of a step: tells which copied vertices stay together");
   add_common_options(*command, *inputs, kStartColumns);
   add_body_options(*command, *inputs);
   command
-      ->add_option("--export", inputs->geometry,
-                   "Write PLY of what meets: edges that intersect faces red, the faces yellow, what only touches blue")
+      ->add_option(
+          "--export", inputs->geometry,
+          "Write PLY of what meets: edges that intersect faces red, the faces yellow, what only touches blue")
       ->type_name("FILE");
   command->footer(
-      "Exit status: 0 nothing found; 3 something was, or a budget ended the search; 1 bad input; 2 wrong usage.\n"
+      "Exit status: 0 nothing found; 3 something was, or a budget ended the search; 1 bad input; 2 wrong "
+      "usage.\n"
       "Of the options those of accuracy do not matter here, but --min-separation and --norm do.");
   command->callback([&run, inputs] { run = [inputs] { run_check(*inputs); }; });
 }

@@ -39,7 +39,8 @@ std::vector<Colour> colours(const DemoResult& r) {
   double earliest = 1;
   for (const onset::Contact& contact : r.whole) earliest = std::min(earliest, contact.toi);
   std::vector<Colour> result;
-  for (const double toi : toi_of_vertices(r.whole, std::size_t(r.x.rows()))) result.push_back(colour_of(toi, earliest));
+  for (const double toi : toi_of_vertices(r.whole, std::size_t(r.x.rows())))
+    result.push_back(colour_of(toi, earliest));
   return result;
 }
 

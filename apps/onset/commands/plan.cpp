@@ -75,7 +75,8 @@ void report(const Scene& scene, const Inputs& inputs) {
 void add_plan(CLI::App& app, Run& run) {
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command =
-      app.add_subcommand("filters", "Which pairs a scene can have at all, and why it has no others")->alias("plan");
+      app.add_subcommand("filters", "Which pairs a scene can have at all, and why it has no others")
+          ->alias("plan");
   command->add_option("A", inputs->a, "Mesh: .ply, .obj, .off or .stl")->required();
   command->add_option("B", inputs->b, "The same mesh later: tells which bodies are at rest");
   add_body_options(*command, *inputs);

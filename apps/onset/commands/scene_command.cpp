@@ -18,10 +18,8 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
   };
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command = app.add_subcommand(name, help);
-  command->add_option("A", inputs->a, kMeshHelp)
-      ->required();
-  command->add_option("B", inputs->b, kEndHelp)
-      ->required();
+  command->add_option("A", inputs->a, kMeshHelp)->required();
+  command->add_option("B", inputs->b, kEndHelp)->required();
   add_common_options(*command, *inputs, csv_columns);
   add_body_options(*command, *inputs);
   command->callback([&run, inputs, work = std::move(work)] {
@@ -53,13 +51,14 @@ static std::string seam_hint(const Scene& scene) {
 
 void note_start(const Scene& scene, const onset::Options& options, bool in_contact, Outputs& outputs) {
   onset::Options all;  // without budgets, beyond which "there may be" is the answer
-  all.threads = options.threads, all.broad_phase = options.broad_phase, all.instruction_set = options.instruction_set;
+  all.threads = options.threads, all.broad_phase = options.broad_phase,
+  all.instruction_set = options.instruction_set;
   const bool meets = onset::has_intersections(scene.mesh, scene.x_t0, all);
   if (!meets && !in_contact) return;
   const bool apart = !meets && options.min_separation > 0;
   outputs.note(std::string("the start ") + (meets ? "intersects or touches itself" : "touches itself") +
-               (apart ? ", or is closer than the separation" : "") + ": see 'onset check " + scene.path + "'" +
-               seam_hint(scene));
+               (apart ? ", or is closer than the separation" : "") + ": see 'onset check " + scene.path +
+               "'" + seam_hint(scene));
 }
 
 }  // namespace app

@@ -19,8 +19,8 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
                             const std::string& csv_columns, SceneWork work,
                             std::shared_ptr<Arguments>* arguments = nullptr);
 
-// One line where the start intersects or touches itself, which no step can mend. `in_contact`: the result says that a
-// pair touches at t = 0, or is closer than the separation.
+// One line where the start intersects or touches itself, which no step can mend. `in_contact`: the result
+// says that a pair touches at t = 0, or is closer than the separation.
 void note_start(const Scene& scene, const onset::Options& options, bool in_contact, Outputs& outputs);
 
 }  // namespace app

@@ -31,8 +31,7 @@ onset::StepResult compute(const Scene& scene, const onset::Options& options) {
 void add_step(CLI::App& app, Run& run) {
   const auto files = std::make_shared<SceneFiles>();
   CLI::App* command = add_scene_command(
-      app, run, "step", "The largest step from A towards B that is certainly free of contact",
-      kColumns,
+      app, run, "step", "The largest step from A towards B that is certainly free of contact", kColumns,
       [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
         const onset::StepResult result = compute(scene, options);
         const bool in_contact = result.outcome == onset::Outcome::initial_contact;

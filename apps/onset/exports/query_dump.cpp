@@ -1,7 +1,6 @@
 #include "onset/exports/query_dump.hpp"
 
 #include <cmath>
-
 #include <filesystem>
 #include <fstream>
 

@@ -19,7 +19,8 @@ class Outputs {
  public:
   explicit Outputs(const Arguments& arguments);
   Output* csv() { return csv_ ? &*csv_ : nullptr; }
-  // What comes before the summary, is the last key, "notes", of the JSON, and on stderr where neither is asked for.
+  // What comes before the summary, is the last key, "notes", of the JSON, and on stderr where neither is
+  // asked for.
   void note(const std::string& text) { notes_.push_back(text); }
   void finish(Json json, const std::string& summary);
 

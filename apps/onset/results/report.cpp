@@ -22,8 +22,7 @@ const char* outcome_name(onset::PairOutcome outcome) {
 Json to_json(const onset::Pair& pair) {
   return {{"kind", kind_name(pair.kind)}, {"a", pair.a}, {"b", pair.b}, {"vertices", pair.vertices}};
 }
-Json to_json(const std::optional<onset::Pair>& pair) { return pair ? to_json(*pair) : Json();
-}
+Json to_json(const std::optional<onset::Pair>& pair) { return pair ? to_json(*pair) : Json(); }
 
 namespace {
 
@@ -91,10 +90,14 @@ static void add_certainty(Json& json, onset::Certainty certainty, double toi_hi)
 }
 
 Json step_json(const onset::StepResult& r) {
-  Json json = {{"outcome", outcome_name(r.outcome)}, {"step", r.step},
-               {"limiting", to_json(r.limiting)},        {"candidates", to_json(r.stats.candidates)},
-               {"seconds", seconds_json(r.stats)},       {"tolerance", r.stats.tolerance},
-               {"toi", time_json(r.toi)},                {"rounding", r.rounding},
+  Json json = {{"outcome", outcome_name(r.outcome)},
+               {"step", r.step},
+               {"limiting", to_json(r.limiting)},
+               {"candidates", to_json(r.stats.candidates)},
+               {"seconds", seconds_json(r.stats)},
+               {"tolerance", r.stats.tolerance},
+               {"toi", time_json(r.toi)},
+               {"rounding", r.rounding},
                {"shortest", r.shortest}};
   if (r.limiting) add_certainty(json["limiting"], r.certainty, r.toi_hi);
   if (r.vertex >= 0) json["vertex"] = r.vertex;
@@ -125,14 +128,17 @@ Json active_set_json(const onset::ActiveSet& set) {
 }
 
 void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
-  csv.write("kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit\n");
+  csv.write(
+      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_"
+      "limit\n");
   for (const onset::Contact& c : set) {
     const auto& v = c.vertices;
-    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(c.kind), c.a, c.b, c.toi, v[0], v[1], v[2],
-                     v[3], outcome_name(c.outcome), onset::to_string(c.certainty), c.toi_hi));
+    csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(c.kind), c.a, c.b, c.toi, v[0], v[1],
+                     v[2], v[3], outcome_name(c.outcome), onset::to_string(c.certainty), c.toi_hi));
     const auto& w = c.weights;
     const auto& n = c.normal;
-    for (const double x : {w[0], w[1], w[2], w[3], n[0], n[1], n[2], c.gap, c.speed}) csv.write(format(",%.17g", x));
+    for (const double x : {w[0], w[1], w[2], w[3], n[0], n[1], n[2], c.gap, c.speed})
+      csv.write(format(",%.17g", x));
     csv.write(format(",%d,%.17g\n", int(c.degenerate), c.step_limit));
   }
 }
@@ -155,10 +161,11 @@ std::string describe(const onset::PairCounts& c) {
 }
 
 std::string describe_step(const onset::StepResult& r) {
-  std::string text = format("outcome     %s\nstep        %.17g\nlimited by  %s\n",
-                            outcome_name(r.outcome), r.step, r.limiting ? describe(*r.limiting).c_str() : "none");
+  std::string text = format("outcome     %s\nstep        %.17g\nlimited by  %s\n", outcome_name(r.outcome),
+                            r.step, r.limiting ? describe(*r.limiting).c_str() : "none");
   if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
-  text += std::isfinite(r.toi) ? format("touches     t = %.17g, on the exact motion\n", r.toi) : "touches     never\n";
+  text += std::isfinite(r.toi) ? format("touches     t = %.17g, on the exact motion\n", r.toi)
+                               : "touches     never\n";
   return text + format("rounding    %.3g, what storing the end of the step may change\n", r.rounding);
 }
 
@@ -169,7 +176,8 @@ std::string describe_sizes(std::ptrdiff_t vertices, std::ptrdiff_t edges, std::p
 std::string describe_sizes(const onset::Mesh& mesh) {
   const std::ptrdiff_t points = mesh.num_points();
   std::string text = describe_sizes(mesh.num_vertices(), mesh.num_edges() - points, mesh.num_faces());
-  if (points > 0) text.insert(text.size() - 1, format(", %td points (edges of length 0 behind all others)", points));
+  if (points > 0)
+    text.insert(text.size() - 1, format(", %td points (edges of length 0 behind all others)", points));
   return text;
 }
 

@@ -25,7 +25,7 @@ Json to_json(const onset::FilterCounts& plan);
 Json to_json(const onset::Stats& stats);
 Json seconds_json(const onset::Stats& stats);  // {broad, narrow, total}
 Json spread_json(const Spread& spread);        // {median, min, max}
-Json time_json(double time);  // null for never
+Json time_json(double time);                   // null for never
 Json step_json(const onset::StepResult& result);
 Json active_set_json(const onset::ActiveSet& set);
 
@@ -33,7 +33,7 @@ Json active_set_json(const onset::ActiveSet& set);
 // degenerate, and how far the pair lets a step go
 void write_active_set_csv(Output& csv, const onset::ActiveSet& set);
 
-std::string describe(const onset::Pair& pair);  // "vertex 3 and face 7 (vertices 3; 1 2 9)"
+std::string describe(const onset::Pair& pair);      // "vertex 3 and face 7 (vertices 3; 1 2 9)"
 std::string describe_edge(int edge, int v, int w);  // "edge 4 (vertices 1 2)", or "point 1 (edge 4)"
 std::string describe(const onset::PairCounts& counts);
 std::string describe_step(const onset::StepResult& result);

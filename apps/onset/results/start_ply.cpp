@@ -56,11 +56,12 @@ StartLayer make_layer(const onset::Mesh& mesh, const onset::StartReport& report)
 void write_start_ply(const std::string& path, const Scene& scene, const onset::StartReport& report) {
   const StartLayer layer = make_layer(scene.mesh, report);
   Output file(path);
-  write_ply_header(file, {{"vertex",
-                           layer.corners.size(),
-                           {"double x", "double y", "double z", "uchar red", "uchar green", "uchar blue", "int id"}},
-                          ply_faces(layer.faces.size()),
-                          ply_edges(layer.edges.size())});
+  write_ply_header(
+      file, {{"vertex",
+              layer.corners.size(),
+              {"double x", "double y", "double z", "uchar red", "uchar green", "uchar blue", "int id"}},
+             ply_faces(layer.faces.size()),
+             ply_edges(layer.edges.size())});
   for (const StartLayer::Corner& c : layer.corners) {
     const auto x = scene.x_t0.row(c.vertex);
     const auto [red, green, blue] = c.colour;

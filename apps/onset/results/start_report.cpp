@@ -125,12 +125,13 @@ std::string describe(const StartFindings& f) {
   else if (r.clean())
     text += "clean\n";
   else
-    text += r.acceptable() ? "a step may start here, with what follows in mind\n"
-                           : "a step cannot start here\n";
+    text +=
+        r.acceptable() ? "a step may start here, with what follows in mind\n" : "a step cannot start here\n";
   if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
   for (const onset::StartFinding& finding : r.findings) {
     text += "\n" + finding.text + "\n" + describe_list(f, finding.fault);
-    if (const std::string flag = flag_for(finding.fault); !flag.empty()) text += "  on the command line: " + flag + "\n";
+    if (const std::string flag = flag_for(finding.fault); !flag.empty())
+      text += "  on the command line: " + flag + "\n";
   }
   return text + format("\nseconds     %.3g\n", r.seconds);
 }
@@ -150,7 +151,8 @@ Json to_json(const StartFindings& f) {
   for (const onset::Pair& p : r.touching) json["touching"].push_back(app::to_json(p));
   json["within_separation"] = list_json(r.within_separation);
   json["copied_vertices"] = r.copied_vertices;
-  if (f.copies) json["copies_that_stay_together"] = f.copies->together, json["copies_that_part"] = f.copies->parting;
+  if (f.copies)
+    json["copies_that_stay_together"] = f.copies->together, json["copies_that_part"] = f.copies->parting;
   json["faces_without_area"] = r.faces_without_area;
   json["unused_vertices"] = r.unused_vertices;
   json["seconds"] = r.seconds;
@@ -169,7 +171,8 @@ void write_csv(Output& csv, const StartFindings& f) {
   for (const auto& copy : r.copied_vertices)
     csv.write("copied_vertices,,," + vertex_fields(copy.data(), 2) + ",,\n");
   for (const int face : r.faces_without_area)
-    csv.write(format("faces_without_area,,%d,", face) + vertex_fields(f.scene.mesh.face(face).data(), 3) + ",,\n");
+    csv.write(format("faces_without_area,,%d,", face) + vertex_fields(f.scene.mesh.face(face).data(), 3) +
+              ",,\n");
   for (const int v : r.unused_vertices) csv.write("unused_vertices,,," + vertex_fields(&v, 1) + ",,\n");
 }
 

@@ -99,7 +99,8 @@ class QuerySubject : public Subject {
   }
 
   void add(Answers& a, const Asked& q, const onset::QueryResult& r) const {
-    a.positives += r.collides(), a.budget += r.outcome == onset::PairOutcome::max_checks, a.checks += r.checks;
+    a.positives += r.collides(), a.budget += r.outcome == onset::PairOutcome::max_checks,
+        a.checks += r.checks;
     a.certain += r.collides() && r.certainty != onset::Certainty::within_tolerance;
     a.achieved_tolerance = std::max(a.achieved_tolerance, r.tolerance);
     if (r.collides()) a.earliest = std::min(a.earliest, r.toi);

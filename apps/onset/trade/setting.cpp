@@ -65,8 +65,8 @@ void norm(Axis& axis, const Options& base, const Grounds& grounds) {
   for (const Norm n : {Norm::euclidean, Norm::maximum}) {
     if (n == base.norm && d == base.min_separation) continue;
     axis.add(
-        format("%s, separation %.3g", norm_name(n), d),
-        [&](Options& o) { o.norm = n, o.min_separation = d; }, false);
+        format("%s, separation %.3g", norm_name(n), d), [&](Options& o) { o.norm = n, o.min_separation = d; },
+        false);
   }
 }
 
@@ -105,13 +105,14 @@ void threads(Axis& axis, const Options& base, const Grounds& grounds) {
 
 void certainty(Axis& axis, const Options& base, const Grounds&) {
   for (const auto& [name, level] :
-       {std::pair{"conservative", Exactness::conservative},
-        std::pair{"certify", Exactness::certify}, std::pair{"exact", Exactness::exact}})
+       {std::pair{"conservative", Exactness::conservative}, std::pair{"certify", Exactness::certify},
+        std::pair{"exact", Exactness::exact}})
     if (level != base.exactness) axis.add(name, [l = level](Options& o) { o.exactness = l; });
 }
 
 void kernel(Axis& axis, const Options& base, const Grounds&) {
-  if (base.instruction_set != InstructionSet::scalar) axis.add("scalar", [](Options& o) { o.instruction_set = InstructionSet::scalar; });
+  if (base.instruction_set != InstructionSet::scalar)
+    axis.add("scalar", [](Options& o) { o.instruction_set = InstructionSet::scalar; });
 }
 
 struct NamedAxis {
@@ -138,12 +139,14 @@ const char* word(BroadPhaseMethod m) {
                                         : "BroadPhaseMethod::automatic";
 }
 const char* word(InstructionSet k) {
-  return k == InstructionSet::scalar ? "InstructionSet::scalar" : k == InstructionSet::avx2 ? "InstructionSet::avx2" : "InstructionSet::automatic";
+  return k == InstructionSet::scalar ? "InstructionSet::scalar"
+         : k == InstructionSet::avx2 ? "InstructionSet::avx2"
+                                     : "InstructionSet::automatic";
 }
 const char* word(Exactness c) {
   return c == Exactness::exact     ? "Exactness::exact"
          : c == Exactness::certify ? "Exactness::certify"
-                                        : "Exactness::conservative";
+                                   : "Exactness::conservative";
 }
 
 }  // namespace
@@ -185,7 +188,8 @@ std::string in_words(const Options& o) {
   say(o.broad_phase != defaults.broad_phase, std::string("broad_phase = ") + word(o.broad_phase));
   say(o.narrow_phase != defaults.narrow_phase, std::string("narrow_phase = ") + word(o.narrow_phase));
   say(o.exactness != defaults.exactness, std::string("exactness = ") + word(o.exactness));
-  say(o.instruction_set != defaults.instruction_set, std::string("instruction_set = ") + word(o.instruction_set));
+  say(o.instruction_set != defaults.instruction_set,
+      std::string("instruction_set = ") + word(o.instruction_set));
   return text.empty() ? "the defaults" : text;
 }
 

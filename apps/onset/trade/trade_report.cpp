@@ -47,9 +47,7 @@ Json early_json(const std::optional<Earliness>& e) {
 }
 
 const char* word(onset::Exactness c) {
-  return c == onset::Exactness::exact     ? "exact"
-         : c == onset::Exactness::certify ? "certify"
-                                               : "conservative";
+  return c == onset::Exactness::exact ? "exact" : c == onset::Exactness::certify ? "certify" : "conservative";
 }
 
 Json options_json(const onset::Options& o) {

@@ -333,7 +333,9 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
   }
   LineSearchOptions options = options_of(min_distance, ccd);
   options.gap_share = 1 - ccd.conservative_rescaling;
-  return LineSearch(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0), options).largest_step().step;
+  return LineSearch(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0), options)
+      .largest_step()
+      .step;
 }
 
 // Tells, exactly, whether an edge and a face without a common vertex have a common point; a touch is one.

@@ -1,4 +1,5 @@
-// The readers of mesh files from inside: numbers bit by bit, and damaged files, which end in a message at worst.
+// The readers of mesh files from inside: numbers bit by bit, and damaged files, which end in a message at
+// worst.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -20,7 +21,8 @@ namespace {
 using Reader = app::MeshFile (*)(const std::string&, std::string_view);
 
 const std::string kPlyHeader =
-    "element vertex 4\nproperty float x\nproperty double y\nproperty float z\nproperty list uchar short more\n"
+    "element vertex 4\nproperty float x\nproperty double y\nproperty float z\nproperty list uchar short "
+    "more\n"
     "element face 2\nproperty list uchar ushort vertex_indices\nelement edge 1\nproperty int vertex1\n"
     "property uchar vertex2\nend_header\n";
 
@@ -33,7 +35,8 @@ void append(std::string& bytes, T value, bool big) {
 }
 
 std::string binary_ply(bool big) {
-  std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian 1.0\n" + kPlyHeader;
+  std::string bytes =
+      std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian 1.0\n" + kPlyHeader;
   for (int v = 0; v < 4; ++v) {
     append(bytes, float(v), big), append(bytes, double(v * v), big), append(bytes, 0.5f, big);
     append(bytes, std::uint8_t(1), big), append(bytes, std::int16_t(7), big);
@@ -71,28 +74,44 @@ struct Sample {
 };
 
 std::vector<Sample> samples() {
-  return {{app::read_obj, "# c\nv 0 0 0\nv 1 0 0 1\nv 1 1 \\\n0\nv 0 1e0 0\nvn 0 0 1\nf 1//1 2/1 3/1/1 -1\nl 1 2 4\np 3\ns off\nxy\n"},
-          {app::read_ply, "ply\nformat ascii 1.0\n" + kPlyHeader + "0 0 0 0\n1 0 0 1 5\n1 1 0 0\n0 1 0 2 1 2\n3 0 1 2\n4 0 1 2 3\n0 3\n"},
+  return {{app::read_obj,
+           "# c\nv 0 0 0\nv 1 0 0 1\nv 1 1 \\\n0\nv 0 1e0 0\nvn 0 0 1\nf 1//1 2/1 3/1/1 -1\nl 1 2 4\np 3\ns "
+           "off\nxy\n"},
+          {app::read_ply, "ply\nformat ascii 1.0\n" + kPlyHeader +
+                              "0 0 0 0\n1 0 0 1 5\n1 1 0 0\n0 1 0 2 1 2\n3 0 1 2\n4 0 1 2 3\n0 3\n"},
           {app::read_ply, binary_ply(false)},
           {app::read_ply, binary_ply(true)},
-          {app::read_off, "COFF\n# c\n4 3 0\n0 0 0 1 1 1 1\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 0.5\n4 0 1 2 3\n2 0 3\n"},
+          {app::read_off,
+           "COFF\n# c\n4 3 0\n0 0 0 1 1 1 1\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 0.5\n4 0 1 2 3\n2 0 3\n"},
           {app::read_off, binary_off()},
-          {app::read_stl, "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
-                          "endfacet\nendsolid a\n"},
+          {app::read_stl,
+           "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+           "endfacet\nendsolid a\n"},
           {app::read_stl, binary_stl()}};
 }
 
 // Bytes turned, runs copied or lost, numbers made large or negative.
 void damage(std::string& bytes, std::mt19937_64& random) {
   const auto below = [&](std::size_t n) { return std::size_t(random() % std::max<std::size_t>(n, 1)); };
-  const std::string words[] = {"-1", "4294967297", "99999999999999999999", "1e400", "nan", "0", "\n", " ", "\\\n", "#"};
+  const std::string words[] = {"-1",   "4294967297", "99999999999999999999", "1e400", "nan", "0", "\n", " ",
+                               "\\\n", "#"};
   const std::size_t at = below(bytes.size()), length = std::min(1 + below(9), bytes.size() - at);
   switch (below(5)) {
-    case 0: bytes[at] = char(random()); break;
-    case 1: bytes.erase(at, length); break;
-    case 2: bytes.insert(at, bytes.substr(below(bytes.size()), 1 + below(40))); break;
-    case 3: bytes.replace(at, std::min<std::size_t>(length, 2), words[below(std::size(words))]); break;
-    default: for (std::size_t i = 0; i < length; ++i) bytes[at + i] = '\xff'; break;
+    case 0:
+      bytes[at] = char(random());
+      break;
+    case 1:
+      bytes.erase(at, length);
+      break;
+    case 2:
+      bytes.insert(at, bytes.substr(below(bytes.size()), 1 + below(40)));
+      break;
+    case 3:
+      bytes.replace(at, std::min<std::size_t>(length, 2), words[below(std::size(words))]);
+      break;
+    default:
+      for (std::size_t i = 0; i < length; ++i) bytes[at + i] = '\xff';
+      break;
   }
 }
 
@@ -123,8 +142,9 @@ TEST_CASE("numbers are those of strtod, bit by bit", "[unit]") {
     REQUIRE(read);
     REQUIRE(same_bits(*read, std::strtod(text, nullptr)));
   }
-  for (const char* text : {"0", "-0", "1e-400", "-1e-400", "1e400", "-1e400", "4.9e-324", "2e-324", "2.5e-324", "1.e3", ".5",
-                           "179769313486231580793728971405301e276", "0.1e-399", "0.001e400", "000000001", "inf", "-inf"}) {
+  for (const char* text :
+       {"0", "-0", "1e-400", "-1e-400", "1e400", "-1e400", "4.9e-324", "2e-324", "2.5e-324", "1.e3", ".5",
+        "179769313486231580793728971405301e276", "0.1e-399", "0.001e400", "000000001", "inf", "-inf"}) {
     INFO(text);
     REQUIRE(app::parse_double(text));
     CHECK(same_bits(*app::parse_double(text), std::strtod(text, nullptr)));

@@ -44,8 +44,10 @@ void whole_steps(const Scene& s, const onset::Mesh& mesh) {
   const onset::Candidates pairs = onset::compute_candidates(mesh, s.x0, s.x1);
   expect(pairs.vertex_face.size() + pairs.edge_edge.size() >= active.size(), "contacts are candidates");
   std::atomic<std::size_t> visited{0};
-  onset::visit_candidates(mesh, s.x0, s.x1, [&](onset::PairKind, const std::array<int, 2>*, std::size_t n) { visited += n; });
-  expect(onset::count_candidates(mesh, s.x0, s.x1).counts.total() == pairs.counts.total(), "candidates are counted");
+  onset::visit_candidates(mesh, s.x0, s.x1,
+                          [&](onset::PairKind, const std::array<int, 2>*, std::size_t n) { visited += n; });
+  expect(onset::count_candidates(mesh, s.x0, s.x1).counts.total() == pairs.counts.total(),
+         "candidates are counted");
   expect(std::int64_t(visited) == pairs.counts.total(), "candidates are visited");
 }
 

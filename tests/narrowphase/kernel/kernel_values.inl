@@ -54,8 +54,10 @@ void float_values(const KernelPairs& pairs, int row, const tests::ValuesWanted& 
   using V = F8;
   const int rows[8] = {row, row, row, row, row, row, row, row};
   FloatPairs<K> s;
-  if (pairs.rounded != nullptr) rounded_corners(pairs, Listed{rows}, s);
-  else float_corners(pairs, Listed{rows}, s);
+  if (pairs.rounded != nullptr)
+    rounded_corners(pairs, Listed{rows}, s);
+  else
+    float_corners(pairs, Listed{rows}, s);
   V w[3], wb[3], middle[3];
   for (int a = 0; a < 3; ++a) {
     w[a] = to_float(D4::all(in.w[a]), D4::all(in.w[a]));

@@ -1,5 +1,5 @@
-// The errors of the certificate that a contact is real (narrowphase/kernel/contact_certificate.inl) against its
-// bounds, in exact arithmetic.
+// The errors of the certificate that a contact is real (narrowphase/kernel/contact_certificate.inl) against
+// its bounds, in exact arithmetic.
 #include "onset/options.hpp"
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"

@@ -17,7 +17,8 @@ static bool culled(const Query& query, double separation, Norm norm) {
   batch.add(query, separation);
   const auto is_culled = [&] {
     int survivor;
-    return scalar_kernels().of_kind[int(query.kind)].cull(batch.pairs(1e-6, norm == Norm::maximum), &survivor) == 0;
+    return scalar_kernels().of_kind[int(query.kind)].cull(batch.pairs(1e-6, norm == Norm::maximum),
+                                                          &survivor) == 0;
   };
   if (is_culled()) return true;
   batch.round();

@@ -2,9 +2,9 @@
 // without it: answers worked out by hand, contacts by construction, symmetry, a second number type, and
 // distances whose minimality is proved by a separating plane.
 #include "tests/catch.hpp"
+#include "tests/oracle/all_families.hpp"
 #include "tests/oracle/contact.hpp"
 #include "tests/oracle/distance.hpp"
-#include "tests/oracle/all_families.hpp"
 #include "tests/oracle/oracle.hpp"
 #include "tests/oracle/promises.hpp"
 #include "tests/scenes/families.hpp"
@@ -164,16 +164,18 @@ TEST_CASE("an irrational time of impact lies strictly between adjacent doubles",
 }
 
 TEST_CASE("contacts and misses by construction", "[property][oracle]") {
-  oracle::for_all_families(oracle::fuzz(40), 11, [](const scenes::Family& family, const Query& query, scenes::Random&) {
-    const Truth truth = oracle::exact_ccd(query);
-    if (family.expect == scenes::Expect::contact) CHECK(truth.collides);
-    if (family.expect == scenes::Expect::free) CHECK_FALSE(truth.collides);
-    if (!truth.collides) return;
-    const bool bracketed = truth.toi_lo == truth.toi_hi || std::nextafter(truth.toi_lo, 2) == truth.toi_hi;
-    CHECK(bracketed);
-    CHECK(truth.toi_lo >= 0);
-    CHECK(truth.toi_hi <= 1);
-  });
+  oracle::for_all_families(
+      oracle::fuzz(40), 11, [](const scenes::Family& family, const Query& query, scenes::Random&) {
+        const Truth truth = oracle::exact_ccd(query);
+        if (family.expect == scenes::Expect::contact) CHECK(truth.collides);
+        if (family.expect == scenes::Expect::free) CHECK_FALSE(truth.collides);
+        if (!truth.collides) return;
+        const bool bracketed =
+            truth.toi_lo == truth.toi_hi || std::nextafter(truth.toi_lo, 2) == truth.toi_hi;
+        CHECK(bracketed);
+        CHECK(truth.toi_lo >= 0);
+        CHECK(truth.toi_hi <= 1);
+      });
 }
 
 // The same question put differently: other relative vectors, other axes, other boundary segments.
@@ -196,18 +198,19 @@ static std::vector<Query> equivalent(const Query& query) {
 
 TEST_CASE("the answer does not depend on the order of points, axes, signs or the direction of time",
           "[property][oracle]") {
-  oracle::for_all_families(oracle::fuzz(10), 12, [](const scenes::Family&, const Query& query, scenes::Random&) {
-    const Truth truth = oracle::exact_ccd(query);
-    for (const Query& other : equivalent(query)) {
-      const Truth same = oracle::exact_ccd(other);
-      CHECK(same.collides == truth.collides);
-      CHECK(same.toi_lo == truth.toi_lo);
-      CHECK(same.toi_hi == truth.toi_hi);
-    }
-    Query backwards = query;
-    std::swap(backwards.t0, backwards.t1);
-    CHECK(oracle::exact_ccd(backwards).collides == truth.collides);
-  });
+  oracle::for_all_families(oracle::fuzz(10), 12,
+                           [](const scenes::Family&, const Query& query, scenes::Random&) {
+                             const Truth truth = oracle::exact_ccd(query);
+                             for (const Query& other : equivalent(query)) {
+                               const Truth same = oracle::exact_ccd(other);
+                               CHECK(same.collides == truth.collides);
+                               CHECK(same.toi_lo == truth.toi_lo);
+                               CHECK(same.toi_hi == truth.toi_hi);
+                             }
+                             Query backwards = query;
+                             std::swap(backwards.t0, backwards.t1);
+                             CHECK(oracle::exact_ccd(backwards).collides == truth.collides);
+                           });
 }
 
 TEST_CASE("two number types, integers and fractions, give the same answer", "[property][oracle]") {
@@ -238,36 +241,40 @@ static oracle::Relative<Rational> relative_at(const Query& query, double t) {
 // points show that nothing in the set is shorter; the corners show that the plane through d separates all of
 // it from the origin.
 TEST_CASE("the shortest difference is proved shortest by a separating plane", "[property][oracle]") {
-  oracle::for_all_families(oracle::fuzz(6), 14, [](const scenes::Family&, const Query& query, scenes::Random&) {
-    for (double t : {0.0, 0.375, 1.0}) {
-      const auto r = relative_at(query, t);
-      const auto d = oracle::shortest_difference(r);
-      const Rational dd = oracle::dot(d, d);
-      for (const auto& corner : oracle::corners(r)) CHECK(oracle::dot(corner, d) >= dd);
-      const int steps = 4;
-      for (int i = 0; i <= steps; ++i)
-        for (int j = 0; j <= (query.kind == kEdgeEdge ? steps : steps - i); ++j) {
-          const auto x = r.q - oracle::scaled<Rational>(Rational(i) / steps, r.a) -
-                         oracle::scaled<Rational>(Rational(j) / steps, r.b);
-          CHECK(oracle::dot(x, x) >= dd);
-        }
-    }
-  });
+  oracle::for_all_families(oracle::fuzz(6), 14,
+                           [](const scenes::Family&, const Query& query, scenes::Random&) {
+                             for (double t : {0.0, 0.375, 1.0}) {
+                               const auto r = relative_at(query, t);
+                               const auto d = oracle::shortest_difference(r);
+                               const Rational dd = oracle::dot(d, d);
+                               for (const auto& corner : oracle::corners(r))
+                                 CHECK(oracle::dot(corner, d) >= dd);
+                               const int steps = 4;
+                               for (int i = 0; i <= steps; ++i)
+                                 for (int j = 0; j <= (query.kind == kEdgeEdge ? steps : steps - i); ++j) {
+                                   const auto x = r.q - oracle::scaled<Rational>(Rational(i) / steps, r.a) -
+                                                  oracle::scaled<Rational>(Rational(j) / steps, r.b);
+                                   CHECK(oracle::dot(x, x) >= dd);
+                                 }
+                             }
+                           });
 }
 
 TEST_CASE("the maximum-norm distance is where the cube first meets the polygon", "[property][oracle]") {
-  oracle::for_all_families(oracle::fuzz(4), 15, [](const scenes::Family&, const Query& query, scenes::Random&) {
-    for (double t : {0.0, 0.625}) {
-      const auto r = relative_at(query, t);
-      const Rational d = oracle::maximum_norm_distance(r);
-      CHECK(oracle::within_cube(r, d));
-      if (d > 0) CHECK_FALSE(oracle::within_cube<Rational>(r, d * (1 - Rational(0x1p-80))));
-      const auto s = oracle::shortest_difference(r);
-      const Rational dd = oracle::dot(s, s);
-      CHECK(d * d <= dd);
-      CHECK(dd <= 3 * d * d);
-    }
-  });
+  oracle::for_all_families(oracle::fuzz(4), 15,
+                           [](const scenes::Family&, const Query& query, scenes::Random&) {
+                             for (double t : {0.0, 0.625}) {
+                               const auto r = relative_at(query, t);
+                               const Rational d = oracle::maximum_norm_distance(r);
+                               CHECK(oracle::within_cube(r, d));
+                               if (d > 0)
+                                 CHECK_FALSE(oracle::within_cube<Rational>(r, d * (1 - Rational(0x1p-80))));
+                               const auto s = oracle::shortest_difference(r);
+                               const Rational dd = oracle::dot(s, s);
+                               CHECK(d * d <= dd);
+                               CHECK(dd <= 3 * d * d);
+                             }
+                           });
 }
 
 TEST_CASE("distances by hand, in both norms", "[unit][oracle]") {

@@ -31,13 +31,14 @@ void check_first_time(const Query& query, double d, Norm norm, scenes::Random& r
 TEST_CASE("the first time within a distance is the first, in both norms", "[property][oracle]") {
   for (Norm norm : {Norm::euclidean, Norm::maximum})
     oracle::for_all_families(oracle::fuzz(norm == Norm::euclidean ? 3 : 1), 61,
-                     [&](const scenes::Family&, const Query& query, scenes::Random& random) {
-                       const double size = oracle::extent(query);
-                       if (!(size > 0x1p-900 && size < 0x1p900)) return;
-                       const double at_some_time = oracle::distance(query, scenes::unit(random), norm).hi;
-                       for (double d : {size * scenes::power_of_ten(random, -6, -1), at_some_time})
-                         check_first_time(query, d, norm, random);
-                     });
+                             [&](const scenes::Family&, const Query& query, scenes::Random& random) {
+                               const double size = oracle::extent(query);
+                               if (!(size > 0x1p-900 && size < 0x1p900)) return;
+                               const double at_some_time =
+                                   oracle::distance(query, scenes::unit(random), norm).hi;
+                               for (double d : {size * scenes::power_of_ten(random, -6, -1), at_some_time})
+                                 check_first_time(query, d, norm, random);
+                             });
 }
 
 TEST_CASE("times within a distance that are known by hand", "[unit][oracle]") {
@@ -63,25 +64,26 @@ TEST_CASE("times within a distance that are known by hand", "[unit][oracle]") {
 
 TEST_CASE("what is surely apart is so, also after a step and its rounding", "[property][oracle]") {
   int sure = 0, total = 0;
-  oracle::for_all_families(oracle::fuzz(20), 62, [&](const scenes::Family&, const Query& query, scenes::Random& random) {
-    const double until = scenes::unit(random);
-    const double moved =
-        scenes::coin(random) ? 0 : oracle::extent(query) * scenes::power_of_ten(random, -12, -2);
-    double largest = 0;  // coordinate: what rounding `then` refers to
-    for (const auto* points : {&query.t0, &query.t1})
-      for (const Point& p : *points)
-        largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    ++total;
-    if (!oracle::surely_apart(query, until, moved)) return;
-    ++sure;
-    const oracle::Truth truth = oracle::exact_ccd(query);
-    CHECK((!truth.collides || truth.toi_hi > until));
-    Query then = query;
-    for (std::size_t i = 0; i < 4; ++i) {
-      then.t0[i] = scenes::lerp(query.t0[i], query.t1[i], until);
-      then.t1[i] = scenes::plus(then.t0[i], scenes::point(random, moved / 2));
-    }
-    if (moved > 0x1p-48 * largest) CHECK_FALSE(oracle::exact_ccd(then).collides);
-  });
+  oracle::for_all_families(
+      oracle::fuzz(20), 62, [&](const scenes::Family&, const Query& query, scenes::Random& random) {
+        const double until = scenes::unit(random);
+        const double moved =
+            scenes::coin(random) ? 0 : oracle::extent(query) * scenes::power_of_ten(random, -12, -2);
+        double largest = 0;  // coordinate: what rounding `then` refers to
+        for (const auto* points : {&query.t0, &query.t1})
+          for (const Point& p : *points)
+            largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+        ++total;
+        if (!oracle::surely_apart(query, until, moved)) return;
+        ++sure;
+        const oracle::Truth truth = oracle::exact_ccd(query);
+        CHECK((!truth.collides || truth.toi_hi > until));
+        Query then = query;
+        for (std::size_t i = 0; i < 4; ++i) {
+          then.t0[i] = scenes::lerp(query.t0[i], query.t1[i], until);
+          then.t1[i] = scenes::plus(then.t0[i], scenes::point(random, moved / 2));
+        }
+        if (moved > 0x1p-48 * largest) CHECK_FALSE(oracle::exact_ccd(then).collides);
+      });
   CHECK(4 * sure > total);
 }

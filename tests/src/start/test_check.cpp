@@ -145,8 +145,7 @@ TEST_CASE("the copies of a seam are named, and either call that joins them makes
   CHECK(duplicate_vertices(seam.x) == report.copied_vertices);
   CHECK(says(report, StartFault::copied_vertices, "rules.weld = true"));
   CHECK(says(report, StartFault::copied_vertices, "first vertices 1 and 3"));
-  CHECK(says(report, StartFault::copied_vertices,
-             "rules.excluded_vertices = onset::duplicate_vertices(x)"));
+  CHECK(says(report, StartFault::copied_vertices, "rules.excluded_vertices = onset::duplicate_vertices(x)"));
   CHECK_FALSE(
       (report.acceptable() || report.clean() || report.touching.empty() || report.intersections.empty()));
   set_rule(mesh, &CollisionRules::weld, true);

@@ -14,8 +14,8 @@
 
 using namespace onset;
 using namespace onset::tests;
-using scenes::Random;
 using scenes::change_rules;
+using scenes::Random;
 using scenes::set_rule;
 
 namespace {

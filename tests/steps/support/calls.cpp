@@ -21,7 +21,8 @@ LineSearchOptions with_share(const Options& options, double gap_share) {
 
 CallStep Calls::search(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
                        const Options& options, double gap_share) const {
-  const LineSearchStep r = LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), with_share(options, gap_share)).largest_step();
+  const LineSearchStep r =
+      LineSearch(mesh, x_t0, Eigen::MatrixXd(x_t1 - x_t0), with_share(options, gap_share)).largest_step();
   return {r, r.gap_share, r.stats.tolerance, true, {}, INFINITY};
 }
 
@@ -39,12 +40,17 @@ CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixX
     }
     case Call::close: {
       const ClosePairs list = close_pairs(mesh_, x_t0, d_hat, options);
-      return {
-          compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options, gap_share), gap_share, gap_share * d_hat, true, {}, d_hat};
+      return {compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options, gap_share),
+              gap_share,
+              gap_share * d_hat,
+              true,
+              {},
+              d_hat};
     }
     case Call::adapter:
     case Call::filtered: {
-      CallStep step = search(mesh(call), x_t0, x_t1, options, gap_share);  // for what the adapter does not say
+      CallStep step =
+          search(mesh(call), x_t0, x_t1, options, gap_share);  // for what the adapter does not say
       ipc::TightInclusionCCD ccd;
       ccd.tolerance = options.tolerance.value_or(ccd.tolerance), ccd.max_iterations = options.max_checks;
       ccd.conservative_rescaling = 1 - gap_share;

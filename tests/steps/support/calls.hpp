@@ -21,7 +21,7 @@ constexpr double kGapShare = 0.2;
 struct CallStep {
   StepResult result;
   double gap_share = 0;  // the share that every pair that is looked at keeps
-  double reach = 0;      // a pair that stays farther beyond its separation than this may keep no more than this
+  double reach = 0;  // a pair that stays farther beyond its separation than this may keep no more than this
   bool says_outcome = true;        // false: only the step is known
   std::optional<Candidates> only;  // the pairs that are looked at, where these are not all
   double known = INFINITY;         // of pairs that are not near it is only known that their gap is so much

@@ -34,6 +34,7 @@ std::string share_lost(const Asked& asked, const CallStep& step);
 
 // Everything above, of all calls; d_hat > 0: of the close pairs; keep: the share. What the adapter cannot
 // take it is not asked.
-std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat, double gap_share = kGapShare);
+std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat,
+                           double gap_share = kGapShare);
 
 }  // namespace onset::tests

@@ -156,7 +156,8 @@ std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat,
   for (Call call : kCalls) {
     const bool plain = asked.options.norm == Norm::euclidean && asked.thickness.empty() && !asked.weld;
     if (Calls::is_adapter(call) && !plain) continue;
-    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, gap_share, safe); !broken.empty())
+    if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, gap_share, safe);
+        !broken.empty())
       return broken;
   }
   const StepResult r = compute_collision_free_stepsize(asked.mesh, asked.x_t0, asked.x_t1, asked.options);
