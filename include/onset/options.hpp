@@ -42,6 +42,7 @@ enum class Exactness { conservative, certify, exact };
 //   options.min_separation = 1e-3;
 //   options.exactness = onset::Exactness::exact;
 //   const onset::StepResult r = onset::compute_collision_free_stepsize(mesh, x_t0, x_t1, options);
+//   x = x_t0 + r.step * (x_t1 - x_t0);
 struct Options {
   // Model length, finite, > 0: a pair may be reported once it is closer than min_separation + tolerance.
   // Unset: relative_tolerance (finite, > 0) times R, the largest corner difference of an overlapping pair

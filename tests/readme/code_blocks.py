@@ -2,7 +2,8 @@
 
 Blocks marked cpp that begin with an #include are put into FOLDER/documented.hpp as they stand; every other one becomes a member function
 run() of a struct, README_1 : Context and so on, in FOLDER/documented_fragments.hpp: the names it takes for granted are those of context.hpp.
-A line <!-- not compiled: REASON --> before a block leaves it out. Compilers name the document and its line.
+A line <!-- not compiled: REASON --> before a block leaves it out. In headers, the lines that begin with //   after a comment line
+"// Example..." are such blocks. Compilers name the document and its line.
 """
 
 import pathlib
@@ -12,22 +13,30 @@ import textwrap
 
 FENCE = re.compile(r"(<!-- not compiled: [^\n]+ -->\n+)?^( *)```(?:cpp|c\+\+|C\+\+)\n(.*?)^ *```$", re.MULTILINE | re.DOTALL)
 
+EXAMPLE = re.compile(r"^// Example[^\n]*\n((?://   [^\n]*\n)+)", re.MULTILINE)
+
+
+def blocks(document):
+    """(line, code) of every block that is to be compiled."""
+    text = document.read_text()
+    if document.suffix == ".hpp":
+        found = [(m.start(1), re.sub("^//   ", "", m.group(1), flags=re.MULTILINE)) for m in EXAMPLE.finditer(text)]
+    else:
+        found = [(m.start(3), m.group(3)) for m in FENCE.finditer(text) if not m.group(1)]
+    return [(text[:start].count("\n") + 1, code) for start, code in found]
+
 
 def main(folder, *documents):
     whole, fragments = ["#pragma once\n"], ['#pragma once\n#include "tests/readme/context.hpp"\n']
     names = []
     for document in map(pathlib.Path, documents):
-        text, first = document.read_text(), len(names)
-        for block in FENCE.finditer(text):
-            left_out, _, code = block.groups()
-            if left_out:
-                continue
-            line = text[:block.start(3)].count("\n") + 1
+        first = len(names)
+        for line, code in blocks(document):
             numbered = f'#line {line} "{document}"\n{textwrap.dedent(code)}'
             if code.lstrip().startswith("#include"):
                 whole.append(numbered)
                 continue
-            names.append(f"{document.stem.replace('-', '_')}_{len(names) - first + 1}")
+            names.append(f"{re.sub('[^A-Za-z0-9]', '_', document.stem)}_{len(names) - first + 1}")
             fragments.append(f"struct {names[-1]} : Context {{\nvoid run() {{\n{numbered}}}\n}};\n")
     fragments.append("template <class F>\nvoid for_all_fragments(F&& f) {\n" + "".join(f"f({n}());\n" for n in names) + "}\n")
     pathlib.Path(folder, "documented.hpp").write_text("\n".join(whole))

@@ -1,6 +1,10 @@
 // What the fragments of C++ in the documents take for granted, by the names that they use.
 #pragma once
 
+#include <Eigen/SparseCore>
+#include <cmath>
+#include <cstdio>
+#include <onset/compat/ipc.hpp>
 #include <onset/onset.hpp>
 #include <vector>
 
