@@ -8,6 +8,8 @@
 namespace onset {
 namespace {
 
+constexpr double kLateness = 0x1p-48;  // by so much a box's first time may be late
+
 constexpr double kEta = 0x1p-1074;
 
 // A part of the domain with F at its corners. Edge-edge: a box of (t, u, v), corner 4 it + 2 iu + iv.
@@ -226,7 +228,9 @@ class Search {
 
   InclusionResult stop(InclusionResult::End end, const Box& b) {
     result_.end = end;
-    result_.t = b.t0;
+    // Corners are halved exactly but for their bound, times are rounded by u / 2 each: by 25u in 50 halvings,
+    // more than 2^-48 is never lost (docs/theory.md, T3).
+    result_.t = std::max(in_.t_begin, b.t0 - kLateness);
     double nearest = INFINITY;
     for (int k = 0; k < per_end_; ++k) {
       double squares = 0, most = 0;
@@ -237,7 +241,7 @@ class Search {
       }
       nearest = std::min(nearest, in_.maximum_norm ? most : std::sqrt(squares));
     }
-    result_.distance = nearest * (1 + 0x1p-48);
+    result_.distance = (nearest + 2 * kLateness * in_.corners.rho) * (1 + 0x1p-48);
     return result_;
   }
 

@@ -6,15 +6,18 @@ namespace onset {
 namespace ONSET_ISA {
 namespace {
 
-#include "narrowphase/kernel/advance.inl"
+// In the order in which they build up.
+// clang-format off
+#include "narrowphase/kernel/direction.inl"
+#include "narrowphase/kernel/maximum_norm.inl"
 #include "narrowphase/kernel/certificates.inl"
+#include "narrowphase/kernel/gather.inl"
+#include "narrowphase/kernel/state.inl"
+#include "narrowphase/kernel/advance.inl"
+#include "narrowphase/kernel/cull.inl"
 #include "narrowphase/kernel/contact_certificate.inl"
 #include "narrowphase/kernel/contact_geometry.inl"
-#include "narrowphase/kernel/cull.inl"
-#include "narrowphase/kernel/direction.inl"
-#include "narrowphase/kernel/gather.inl"
-#include "narrowphase/kernel/maximum_norm.inl"
-#include "narrowphase/kernel/state.inl"
+// clang-format on
 
 // K corners: 3 of a vertex-face pair, 4 of two edges.
 template <int K>

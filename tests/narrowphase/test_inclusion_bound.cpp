@@ -121,3 +121,29 @@ TEST_CASE("the running bound of halved corners holds", "[property][oracle]") {
   CHECK(largest <= 1);
   CHECK(largest > 0.2);
 }
+
+// The middles of time are rounded, and the corners are those of the exact middles.
+TEST_CASE("a box's first time is not late where its middles are rounded", "[oracle][regression]") {
+  const double a = 0x1p-49;
+  struct {
+    double t_begin, z0, z1;
+  } cases[] = {{0x1.05e638e705612p-1, 0x1.e83a3c0c1612ap-1, -0x1.ae3190a24e6f1p-1}};
+  Random random(98);
+  for (int i = 0; i < fuzz(20000); ++i) {
+    auto c = cases[0];
+    if (i > 0)
+      c = {0.5 + 0.05 * scenes::unit(random), 0.5 + 0.5 * scenes::unit(random),
+           -0.5 - 0.5 * scenes::unit(random)};
+    Query query{PairKind::vertex_face,
+                {{{0, 0, c.z0}, {-a, -a, 0}, {a, -a, 0}, {0, a, 0}}},
+                {{{0, 0, c.z1}, {-a, -a, 0}, {a, -a, 0}, {0, a, 0}}}};
+    const Corners corners = corners_of(query);
+    const Rational exact = Rational(c.z0) / (Rational(c.z0) - Rational(c.z1));
+    if (exact <= Rational(c.t_begin)) continue;
+    const InclusionResult r =
+        find_first_inclusion_of_the_test({corners, c.t_begin, 0, 116 * 0x1p-53 * corners.rho});
+    CAPTURE(i, c.t_begin, c.z0, c.z1, r.t);
+    REQUIRE(r.end == InclusionResult::End::contact);
+    REQUIRE(Rational(r.t) <= exact);
+  }
+}
