@@ -44,6 +44,8 @@ std::vector<Edge> missing(std::vector<Edge> present, const std::vector<Edge>& wa
 }  // namespace
 
 std::vector<Edge> edge_list(const Indices& faces) {
+  if (faces.rows() > 0 && faces.cols() != 3)
+    throw std::invalid_argument("faces have " + std::to_string(faces.cols()) + " columns, not 3");
   std::vector<Edge> list;
   list.reserve(std::size_t(faces.rows()) * 3);
   for (std::ptrdiff_t f = 0; f < faces.rows(); ++f)

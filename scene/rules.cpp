@@ -77,9 +77,9 @@ void apply_points(const std::vector<int>& ids, MeshData& data) {
 void apply_thickness(const std::vector<double>& thickness, MeshData& data) {
   if (!thickness.empty()) check_size("thickness", thickness.size(), data.num_vertices, "vertices");
   for (std::size_t v = 0; v < thickness.size(); ++v)
-    if (!(thickness[v] >= 0) || !std::isfinite(thickness[v]))
+    if (!(thickness[v] >= 0 && thickness[v] <= 0x1p1020))
       reject_row("thickness", std::ptrdiff_t(v),
-                 std::to_string(thickness[v]) + " is not a finite number >= 0");
+                 std::to_string(thickness[v]) + " is not a number >= 0, at most 2^1020");
   // No thickness at all is cheaper than one of 0 everywhere.
   const bool any = std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0; });
   data.thickness = any ? thickness : std::vector<double>();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <stdexcept>
 
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
@@ -36,12 +37,11 @@ class CandidateList {
     std::int64_t& count =
         kind == PairKind::vertex_face ? result_.counts.vertex_face : result_.counts.edge_edge;
     const auto visit = [&](Task& task, const IdPair* pairs, std::size_t n) { take(kind, pairs, n, task); };
-    const auto merge = [&](Task& task, std::size_t blocks) {
-      if (!budget_.spent()) budget_.advance(blocks);
+    const auto merge = [&](Task& task) {
       count += task.count;
       listed.insert(listed.end(), task.listed.begin(), task.listed.end());
     };
-    visit_pairs(*setup_.broad, kind, kBlocksATask, Task{}, visit, merge, [&] { return budget_.spent(); });
+    visit_pairs(*setup_.broad, kind, kBlocksATask, Task{}, budget_, visit, merge, [] { return false; });
     parallel_sort(listed.begin(), listed.end(), [](const auto& p, const auto& q) { return p < q; });
   }
   // Says whether the list would not fit; nothing more is then listed.
@@ -65,7 +65,7 @@ class CandidateList {
     }
     if (use_.list && (room_ -= std::int64_t(out.size() - before)) < 0) out.clear();
     if (use_.visitor == nullptr) return;
-    (*use_.visitor)(kind, out.data(), out.size());
+    if (!out.empty()) (*use_.visitor)(kind, out.data(), out.size());
     out.clear();
   }
 
@@ -115,6 +115,7 @@ Candidates count_candidates(const Mesh& mesh, const Positions& x_t0, const Posit
 }
 Candidates visit_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                             const CandidateVisitor& visit, const Options& options) {
+  if (!visit) throw std::invalid_argument("visit is empty");
   return candidates(mesh, x_t0, x_t1, options, {&visit, false});
 }
 

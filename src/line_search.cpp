@@ -19,10 +19,10 @@ namespace onset {
 namespace {
 
 std::vector<double> sum(const Positions& x, const Positions& dx) {
-  if (x.rows() != dx.rows() || dx.cols() != 3) {
+  if (x.rows() != dx.rows() || x.cols() != 3 || dx.cols() != 3) {
     std::ostringstream s;
-    s << "dx has " << dx.rows() << " rows of " << dx.cols() << " coordinates; x_t0 has " << x.rows()
-      << " rows of 3";
+    s << "x_t0 has " << x.rows() << " rows of " << x.cols() << " coordinates, dx has " << dx.rows() << " of "
+      << dx.cols() << "; both need one row of 3 for each vertex";
     throw std::invalid_argument(s.str());
   }
   std::vector<double> r(std::size_t(3 * x.rows()));

@@ -10,6 +10,7 @@
 #include "onset/step_size.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/primitive_filter.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/pair_list.hpp"
 #include "src/start/places.hpp"
@@ -127,7 +128,8 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     Budget budget(options);
     const Motion motion = make_motion(mesh.data(), x_t0, x_t1);
     PairList listed;
-    for (const ClosePair& p : close) listed.of(p.kind).push_back({p.a, p.b});
+    for (const ClosePair& p : close)
+      if (may_meet(mesh.data(), p.kind, p.a, p.b)) listed.of(p.kind).push_back({p.a, p.b});
     const double moved = most_moved(motion), rounding = rounding_of_distances(motion);
     const double bound = time_for_others((1 - gap_share) * close.d_hat - 2 * rounding, moved);
     r = step_of_pairs(mesh, motion, listed, options, gap_share, budget, std::min(bound, 1.0));

@@ -8,6 +8,7 @@
 #include "onset/candidates.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/primitive_filter.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/find_contacts.hpp"
 #include "src/shared/pair_list.hpp"
@@ -54,7 +55,7 @@ std::vector<IdPair> checked(const MeshData& mesh, PairKind kind,
     for (int k = vf ? 1 : 2; k < 4; ++k)
       if (v[0] == v[std::size_t(k)] || (!vf && v[1] == v[std::size_t(k)]))
         reject(kind, i, "the two share vertex " + std::to_string(v[std::size_t(k)]));
-    pairs.push_back(p);
+    if (may_meet(mesh, kind, p.a, p.b)) pairs.push_back(p);
   }
   return pairs;
 }

@@ -71,6 +71,7 @@ bool find(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& b
   bounds.lower = most - error;
   put_weights(d.kind, foot, r.weights);
   put_direction(unit(nearest.direction), r.direction);
+  std::copy_n(r.direction, 3, r.normal);
   r.square = nearest.inside;
   return bounds.lower > 0 && bounds.upper - bounds.lower <= kWidest * rho + 8 * blur;
 }
@@ -92,9 +93,15 @@ void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur,
   if (!nearest.inside) nearest = nearest_on_sides(d);
   if (nearest.inside) nearest.direction = towards(plane.normal());
   DoubleDouble most = margin(d, nearest.direction);
+  put_direction(rounded(unit(nearest.direction)), r.normal);
+  std::copy_n(r.normal, 3, r.direction);
+  // Where a corner and a side tie, the direction of either is that of the closest points but for rounding; as
+  // a certificate it may be worth less than the plane's normal, as what it gives away grows with 1 /
+  // distance.
   if (plane.resolved && !nearest.inside) {
     const V n = towards(plane.normal());
-    if (const DoubleDouble across = margin(d, n); across > most) most = across, nearest.direction = n;
+    if (const DoubleDouble across = margin(d, n); across > most)
+      most = across, put_direction(rounded(unit(n)), r.direction);
   }
   const Foot foot = rounded(d.kind, nearest.U.hi, nearest.V.hi);
   const V w = (d.q - DoubleDouble(foot.U) * d.a) - DoubleDouble(foot.V) * d.b;
@@ -104,8 +111,6 @@ void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur,
   bounds.upper = bounds.distance * (1 + 0x1p-50) + error;
   bounds.lower = std::max(most.hi * (1 - 0x1p-51) - error, 0.0);
   put_weights(d.kind, foot, r.weights);
-  const V n = unit(nearest.direction);
-  put_direction(rounded(n), r.direction);
   r.square = nearest.inside;
 }
 

@@ -20,6 +20,8 @@ struct ClosestPoints {
   // From the second primitive towards the first, of unit length up to 8u; 0 or any where the pair touches.
   // Its least product with a corner difference is at least lower - 4.5 u rho.
   double direction[3];
+  // The direction of the closest points themselves, which is another one where a corner and a side tie.
+  double normal[3];
   // Whether the direction is square to both edges or the face; else only to an edge, or to nothing.
   bool square;
 };

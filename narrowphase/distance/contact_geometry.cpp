@@ -63,7 +63,7 @@ class Touching {
 
   // At a boundary: along p1 - p2, or across the plane, if the pair came from there; else along its way.
   Vec at_boundary() const {
-    const Vec direction = vec(near_.direction);
+    const Vec direction = vec(near_.normal);
     if (near_.lower > 0 && came_along(direction)) return direction;
     if (plane_.resolved && came_from(across_))
       if (const Vec n = double(side_here()) * across_; came_along(n)) return n;
@@ -89,7 +89,7 @@ class Touching {
     const Vec e = thin ? unit(rounded(plane_.along)) : Vec{}, n = past_ - dot(past_, e) * e;
     if (length(n) > kNothing * length(past_)) return unit(n - dot(n, e) * e);
     if (length(past_) > 0) return unit(past_);
-    if (near_.lower > 0) return vec(near_.direction);
+    if (near_.lower > 0) return vec(near_.normal);
     return thin ? square_to(e) : wound();
   }
 
@@ -127,7 +127,7 @@ bool wide_geometry(const ExactPair& pair, double t, Geometry& f) {
     return false;
   const double U = coordinate(f.near.weights, pair.kind), V = -f.near.weights[3];
   const auto at = [&](const Differences<double>& x) { return (x.q - U * x.a) - V * x.b; };
-  f.normal = vec(f.near.direction);
+  f.normal = vec(f.near.normal);
   f.speed = dot(f.normal, at(end) - at(start));
   f.unit = 1 / scale;
   f.degenerate = false;
@@ -138,7 +138,7 @@ Geometry precise_geometry(const ExactPair& pair, double t, bool parting, bool od
   const PreciseMotion precise(pair.kind, pair.t0, pair.t1);
   const Differences<DoubleDouble> d = precise.at(t);
   Geometry f{precise_closest_points(d, precise.blur(t)), {}, 0, precise.unit, false};
-  f.normal = vec(f.near.direction);
+  f.normal = vec(f.near.normal);
   const VecOf<DoubleDouble> moved = motion_of(precise, f.near.weights);
   const bool inside =
       f.near.square && std::none_of(f.near.weights, f.near.weights + 4, [](double w) { return w == 0; });

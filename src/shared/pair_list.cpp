@@ -40,7 +40,8 @@ bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, st
   };
   const Task initial{{}, std::vector<std::vector<IdPair>>(lists.size())};
   std::atomic<std::int64_t> room{most};
-  const auto ended = [&] { return room < 0 || budget.spent(); };
+  const auto ended = [&] { return room < 0; };
+  budget.begin_traversal(broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge));
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     const auto cull = [&](Task& task, const IdPair* pairs, std::size_t count) {
       for (std::size_t i = 0; i < lists.size(); ++i) {
@@ -49,13 +50,13 @@ bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, st
         room -= std::int64_t(task.kept[i].size() - before);
       }
     };
-    const auto merge = [&](const Task& task, std::size_t) {
+    const auto merge = [&](const Task& task) {
       for (std::size_t i = 0; i < lists.size() && room >= 0; ++i) {
         std::vector<IdPair>& all = lists[i].list.of(kind);
         all.insert(all.end(), task.kept[i].begin(), task.kept[i].end());
       }
     };
-    visit_pairs(broad, kind, kBlocksATask, initial, cull, merge, ended);
+    visit_pairs(broad, kind, kBlocksATask, initial, budget, cull, merge, ended);
     if (room < 0) break;
     for (const CulledList& culled : lists) {
       std::vector<IdPair>& all = culled.list.of(kind);

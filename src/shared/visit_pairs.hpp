@@ -14,27 +14,32 @@
 namespace onset {
 
 // Calls visit(state, pairs, count) for each batch of a task's blocks, from any thread, where `state` is the
-// task's copy of `initial`, and then merge(state, blocks), for one task at a time. Once ended() is true,
-// batches and tasks that have not begun are left out.
+// task's copy of `initial`, and then merge(state), for one task at a time. Once ended() is true, or the
+// budget is spent, batches and tasks that have not begun are left out. The caller's progress is called
+// outside of merge: it may run parallel work that is given a task of this call.
 template <class State, class Visit, class Merge, class Ended>
 void visit_pairs(const PairSource& source, PairKind kind, std::size_t blocks_a_task, const State& initial,
-                 const Visit& visit, const Merge& merge, const Ended& ended) {
+                 Budget& budget, const Visit& visit, const Merge& merge, const Ended& ended) {
   struct Task {
     State state;
+    Budget& budget;
     const Visit& visit;
     const Ended& ended;
     static void consume(void* context, const IdPair* pairs, std::size_t count) {
       auto& task = *static_cast<Task*>(context);
-      if (!task.ended()) task.visit(task.state, pairs, count);
+      if (!task.ended() && !task.budget.spent()) task.visit(task.state, pairs, count);
     }
   };
   std::mutex mutex;
   parallel_ranges(source.blocks(kind), blocks_a_task, [&](std::size_t first, std::size_t last) {
-    if (ended()) return;
-    Task task{initial, visit, ended};
+    if (ended() || budget.spent()) return;
+    Task task{initial, budget, visit, ended};
     source.traverse(kind, first, last, {&task, &Task::consume});
-    const std::lock_guard<std::mutex> lock(mutex);
-    merge(task.state, last - first);
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      merge(task.state);
+    }
+    if (!budget.spent()) budget.advance(last - first);
   });
 }
 
@@ -59,17 +64,16 @@ Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kin
   budget.begin_traversal(blocks);
   for (const PairKind kind : kinds)
     visit_pairs(
-        pairs, kind, kBlocksATask, std::vector<Found>(),
+        pairs, kind, kBlocksATask, std::vector<Found>(), budget,
         [&](std::vector<Found>& found, const IdPair* batch, std::size_t count) {
           visit(kind, batch, count, found);
           if (found.size() > most) too_many = true;
         },
-        [&](const std::vector<Found>& found, std::size_t done) {
-          budget.advance(done);
+        [&](const std::vector<Found>& found) {
           all.found.insert(all.found.end(), found.begin(), found.end());
           if (all.found.size() > most) too_many = true;
         },
-        [&] { return too_many || budget.spent(); });
+        [&] { return too_many.load(); });
   all.too_many = too_many;
   if (too_many) all.found.clear();
   return all;

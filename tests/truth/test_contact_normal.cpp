@@ -324,3 +324,24 @@ TEST_CASE("a vertex that comes to an edge of a face, or a wire to a parallel one
     CHECK(set[0].normal[2] == Approx(std::sqrt(0.75)).epsilon(1e-5));
   }
 }
+
+TEST_CASE("a contact at a corner that ties with a side has the normal of its closest points",
+          "[oracle][regression]") {
+  VertexFaceQuery q;
+  q.t0 = {{{-1.3125, -.3125, -1}, {1, -1.3125, -1.3125}, {1, .6875, 0}, {-1, .3125, -.6875}}};
+  q.t1 = {{{-.3125, .6875, -1}, {1, -.3125, -.3125}, {1, 1.6875, 0}, {-1, -.6875, -1.6875}}};
+  const QueryResult r = vertex_face_ccd(q);
+  REQUIRE((r.collides() && !r.degenerate));
+  // p1 - p2 at toi, from the weights, in rational arithmetic.
+  double gap2 = 0, along = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    oracle::Rational w = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      w += oracle::Rational(r.weights[k]) *
+           (oracle::Rational(q.t0[k][a]) +
+            oracle::Rational(r.toi) * (oracle::Rational(q.t1[k][a]) - oracle::Rational(q.t0[k][a])));
+    const double x = static_cast<double>(w);
+    gap2 += x * x, along += x * r.normal[a];
+  }
+  CHECK(along >= 0.999 * std::sqrt(gap2));
+}
