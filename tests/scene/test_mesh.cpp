@@ -252,3 +252,19 @@ TEST_CASE("a thousand rigid bodies make no pair within a body", "[property]") {
   CHECK(found.stats.filter_counts.vertex_face.same_body == 1000 * 8 * 12);
   CHECK(found.stats.filter_counts.edge_edge.same_body == 1000 * 18 * 17 / 2);
 }
+
+TEST_CASE("a mesh that was moved from has no vertices, and can be used again", "[unit]") {
+  Eigen::MatrixXi F(1, 3);
+  F << 0, 1, 2;
+  Mesh first(3, F);
+  const Mesh second(std::move(first));
+  CHECK((second.num_vertices() == 3 && first.num_vertices() == 0 && first.num_faces() == 0));  // NOLINT
+  first = second;
+  CHECK(first.num_faces() == 1);
+  Mesh third;
+  third = std::move(first);
+  CHECK((third.num_faces() == 1 && first.num_vertices() == 0));  // NOLINT
+  first.set_rules({});
+  first.release_memory();
+  CHECK(compute_collision_free_stepsize(first, Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 3)).step == 1);
+}

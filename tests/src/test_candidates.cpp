@@ -1,5 +1,6 @@
 // Candidates listed, counted and visited are the same ones, whatever budget or thread looks at them.
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -172,4 +173,68 @@ TEST_CASE("an exception of a visitor leaves the call, and the mesh answers on", 
   CHECK(count_candidates(mesh, x_t0, bad).vertex == 7);
   CHECK_THROWS_AS(visit_candidates(mesh, x_t0, bad.topRows(3), never), std::invalid_argument);
   CHECK_THROWS_AS(count_candidates(mesh, x_t0, bad.topRows(3)), std::invalid_argument);
+}
+
+TEST_CASE("listed candidates obey the rules of the mesh, and must be complete", "[unit]") {
+  Eigen::MatrixXd x_t0(6, 3), x_t1;
+  x_t0 << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1;
+  x_t1 = x_t0;
+  x_t1.bottomRows(3).col(2).setConstant(-1);
+  Eigen::MatrixXi F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;
+  Mesh mesh(x_t0, F);
+  Candidates list = compute_candidates(mesh, x_t0, x_t1);
+  REQUIRE(compute_collision_free_stepsize(mesh, list, x_t0, x_t1).step < 1);
+  CollisionRules rules;
+  rules.bodies = mesh.components();
+  rules.excluded_bodies = {{0, 1}};
+  mesh.set_rules(rules);
+  CHECK(compute_collision_free_stepsize(mesh, list, x_t0, x_t1).step == 1);
+  rules = {};
+  rules.static_vertices = {false, false, false, true, false, false};
+  mesh.set_rules(rules);
+  CHECK_THROWS_WITH(compute_collision_free_stepsize(mesh, list, x_t0, x_t1),
+                    Catch::Contains("vertex 3 is static"));
+  mesh.set_rules({});
+  list.outcome = Outcome::out_of_memory;
+  CHECK_THROWS_WITH(compute_collision_free_stepsize(mesh, list, x_t0, x_t1),
+                    Catch::Contains("out_of_memory"));
+  CHECK_THROWS_WITH(visit_candidates(mesh, x_t0, x_t1, CandidateVisitor()), Catch::Contains("visit"));
+}
+
+TEST_CASE("progress may run parallel work of its own", "[unit]") {
+  const NamedScene named = some_scenes().front();
+  const Mesh mesh = named.mesh();
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<int> calls{0};
+    Options options;
+    options.threads = 4;
+    options.progress = [&](double) {
+      tbb::parallel_for(0, 100, [&](int) { ++calls; });
+      return true;
+    };
+    CHECK(compute_candidates(mesh, named.scene.x_t0, named.scene.x_t1, options).outcome == Outcome::free);
+    CHECK(intersections(mesh, named.scene.x_t0, options).outcome == Outcome::free);
+    CHECK(close_pairs(mesh, named.scene.x_t0, 0.1, options).outcome == Outcome::free);
+    CHECK(calls > 0);
+  }
+}
+
+TEST_CASE("close pairs and the making of a line search can be cancelled, and obey their memory", "[unit]") {
+  const NamedScene named = some_scenes().front();
+  const Mesh mesh = named.mesh();
+  const double d_hat = 10;
+  REQUIRE(close_pairs(mesh, named.scene.x_t0, d_hat).size() > 0);
+  Options options;
+  options.memory_limit = 0;
+  const ClosePairs none = close_pairs(mesh, named.scene.x_t0, d_hat, options);
+  CHECK((none.outcome == Outcome::out_of_memory && none.size() == 0));
+  options = {};
+  int calls = 0;
+  options.threads = 1;
+  options.progress = [&](double) { return ++calls < 2; };
+  CHECK(close_pairs(mesh, named.scene.x_t0, d_hat, options).outcome == Outcome::cancelled);
+  calls = 0;
+  const LineSearch search(mesh, named.scene.x_t0, named.scene.x_t1 - named.scene.x_t0, options);
+  CHECK(search.largest_step().outcome == Outcome::cancelled);
 }

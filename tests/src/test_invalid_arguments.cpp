@@ -147,8 +147,26 @@ TEST_CASE("bad thickness is named by its row", "[unit]") {
   };
   CHECK(names(thick({1, 2}), {"thickness", "2", "8"}));
   std::vector<double> t(8, 0.1);
-  for (double bad : {-0.5, double(NAN), double(INFINITY)}) {
+  for (double bad : {-0.5, double(NAN), double(INFINITY), 1e308}) {
     t[5] = bad;
     CHECK(names(thick(t), {"thickness", "row 5"}));
   }
+}
+
+TEST_CASE("positions of too few columns are not read past, and options out of their enumerators are named",
+          "[unit]") {
+  Calls c;
+  const Eigen::MatrixXd thin = Eigen::MatrixXd::Zero(8, 2), dx = Eigen::MatrixXd::Zero(8, 3);
+  CHECK(names(message_of([&] { LineSearch(c.mesh, thin, dx); }), {"x_t0", "8", "2"}));
+  CHECK(names(message_of([&] { edge_list(Eigen::MatrixXi::Zero(2, 4)); }), {"faces", "4"}));
+  const auto with = [&](auto set) {
+    Options options;
+    set(options);
+    return message_of([&] { construct_active_set(c.mesh, dx, dx, options); });
+  };
+  CHECK(names(with([](Options& o) { o.norm = Norm(9); }), {"norm", "9"}));
+  CHECK(names(with([](Options& o) { o.broad_phase = BroadPhaseMethod(9); }), {"broad_phase", "9"}));
+  CHECK(names(with([](Options& o) { o.narrow_phase = NarrowPhaseMethod(9); }), {"narrow_phase", "9"}));
+  CHECK(names(with([](Options& o) { o.exactness = Exactness(9); }), {"exactness", "9"}));
+  CHECK(names(with([](Options& o) { o.threads = 2147483647; }), {"threads", "2147483647"}));
 }
