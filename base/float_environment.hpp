@@ -3,9 +3,7 @@
 
 #include <utility>
 
-#if defined(__SSE2__) || defined(_M_X64)
-#include <immintrin.h>
-#elif !defined(__aarch64__)
+#if !defined(__SSE2__) && !defined(__aarch64__)
 #include <cfenv>
 #endif
 
@@ -18,9 +16,9 @@ class FloatEnvironment {
   FloatEnvironment(const FloatEnvironment&) = delete;
   FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
-#if defined(__SSE2__) || defined(_M_X64)
-  FloatEnvironment() : host_(_mm_getcsr()) { _mm_setcsr(0x1f80); }
-  ~FloatEnvironment() { _mm_setcsr(host_); }
+#if defined(__SSE2__)
+  FloatEnvironment() : host_(__builtin_ia32_stmxcsr()) { __builtin_ia32_ldmxcsr(0x1f80); }
+  ~FloatEnvironment() { __builtin_ia32_ldmxcsr(host_); }
 
  private:
   unsigned host_;
