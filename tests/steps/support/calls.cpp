@@ -13,6 +13,12 @@ Eigen::MatrixXd end_of(Call call, const Eigen::MatrixXd& x_t0, const Eigen::Matr
   return x_t0 + dx;
 }
 
+// Lists that memory cuts off are no answer to go on with.
+static Options unlimited(Options options) {
+  options.memory_limit = Options().memory_limit;
+  return options;
+}
+
 LineSearchOptions with_share(const Options& options, double gap_share) {
   LineSearchOptions o = options;
   o.gap_share = gap_share;
@@ -34,12 +40,12 @@ CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixX
     case Call::line_search:
       return search(mesh_, x_t0, x_t1, options, gap_share);
     case Call::listed: {
-      const Candidates list = compute_candidates(mesh_, x_t0, x_t1, options);
+      const Candidates list = compute_candidates(mesh_, x_t0, x_t1, unlimited(options));
       const StepResult r = compute_collision_free_stepsize(mesh_, list, x_t0, x_t1, options, gap_share);
       return {r, gap_share, r.stats.tolerance, true, list, INFINITY};
     }
     case Call::close: {
-      const ClosePairs list = close_pairs(mesh_, x_t0, d_hat, options);
+      const ClosePairs list = close_pairs(mesh_, x_t0, d_hat, unlimited(options));
       return {compute_cfl_stepsize(mesh_, x_t0, x_t1, list, options, gap_share),
               gap_share,
               gap_share * d_hat,
@@ -56,7 +62,7 @@ CallStep Calls::ask(Call call, const Eigen::MatrixXd& x_t0, const Eigen::MatrixX
       ccd.conservative_rescaling = 1 - gap_share;
       step.gap_share = 1 - ccd.conservative_rescaling, step.reach = ccd.tolerance, step.says_outcome = false;
       const double d = options.min_separation;
-      if (call == Call::filtered) step.only = compute_candidates(mesh(call), x_t0, x_t1, options);
+      if (call == Call::filtered) step.only = compute_candidates(mesh(call), x_t0, x_t1, unlimited(options));
       step.result.step = ipc::compute_collision_free_stepsize(call == Call::filtered ? filtered_ : adapter_,
                                                               x_t0, x_t1, d, nullptr, ccd);
       return step;
