@@ -21,7 +21,6 @@ struct HilbertTable {
 constexpr unsigned rotate_left(unsigned x, unsigned n) {
   return ((x << n % 3) | (x >> (3 - n % 3) % 3)) & 7u;
 }
-constexpr unsigned rotate_right(unsigned x, unsigned n) { return rotate_left(x, 3 - n % 3); }
 constexpr unsigned gray(unsigned i) { return i ^ (i >> 1); }
 
 constexpr unsigned trailing_ones(unsigned i) {
