@@ -4,6 +4,16 @@
 
 namespace onset {
 
+const char* to_string(PairKind kind) {
+  switch (kind) {
+    case PairKind::vertex_face:
+      return "vertex_face";
+    case PairKind::edge_edge:
+      return "edge_edge";
+  }
+  return "unknown";
+}
+
 const char* to_string(PairOutcome outcome) {
   switch (outcome) {
     case PairOutcome::free:

@@ -47,8 +47,8 @@ using CandidateVisitor =
 
 // Hands every candidate to `visit`, each once, in batches and in no particular order, in constant memory.
 //
-// visit: called from several threads at once unless Options::threads is 1; an exception that it throws leaves
-// the call.
+// visit: called from several threads at once unless Options::threads is 1, in the floating-point environment
+// of the library; an exception that it throws leaves the call. Empty: throws std::invalid_argument.
 // Returns counts, outcome and statistics; after a spent budget not all were visited. Otherwise as
 // compute_candidates.
 ONSET_API Candidates visit_candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,

@@ -36,7 +36,7 @@ struct ClosePairs {
   std::vector<ClosePair> pairs;
   // As asked for.
   double d_hat = 0;
-  // free: all pairs are listed. non_finite, out_of_range, out_of_time, cancelled: none is.
+  // free: all pairs are listed. non_finite, out_of_range, out_of_time, out_of_memory, cancelled: none is.
   Outcome outcome = Outcome::free;
   // The offending vertex of non_finite and out_of_range, else -1.
   int vertex = -1;
@@ -55,8 +55,7 @@ struct ClosePairs {
 //
 // x: #V x 3, model length.
 // d_hat: model length, in (0, 2^1020].
-// options: min_separation and norm decide the separation. Accuracy is not used, nor are check_limit and
-// memory_limit; time_limit and progress can end the call before its first pair only.
+// options: min_separation and norm decide the separation. Accuracy is not used, nor is check_limit.
 // Throws std::invalid_argument for a wrong number of rows or columns, d_hat or options out of range.
 // Safe to call concurrently on one Mesh.
 //

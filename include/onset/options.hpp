@@ -75,10 +75,10 @@ struct Options {
   // number of threads; the budget may be overrun by one wave of work (16 blocks of pairs at first, 1024 at
   // most).
   std::int64_t check_limit = std::numeric_limits<std::int64_t>::max();
-  // Bytes of what is kept for each pair: 256 a contact of an active set (the earliest ones are kept), 8 a
-  // candidate that is listed, or held by a LineSearch (which else finds them again at each step size: the
-  // same answers, later). Not in it: positions, boxes and tree (about 400 bytes a vertex, face and edge) and,
-  // for each thread, a batch of pairs. The answer is the same for any number of threads.
+  // Bytes of what is kept for each pair: 256 a contact of an active set (the earliest ones are kept), 88 a
+  // close pair, 8 a candidate that is listed, or held by a LineSearch (which else finds them again at each
+  // step size: the same answers, later). Not in it: positions, boxes and tree (about 400 bytes a vertex, face
+  // and edge) and, for each thread, a batch of pairs. The answer is the same for any number of threads.
   std::int64_t memory_limit = std::numeric_limits<std::int64_t>::max();
   // Seconds since the call began, looked at every few pairs and between the phases. What it cuts off depends
   // on the machine and on the moment: this alone does not give the same bytes each time. A step cut off is 0,
@@ -87,7 +87,9 @@ struct Options {
   double time_limit = std::numeric_limits<double>::infinity();
 
   // Is called now and then with the share of the pairs looked at so far, in [0, 1], first with 0 before any
-  // work, and cancels the call by returning false (Outcome::cancelled). One thread calls at a time, the
+  // work, and cancels the call by returning false (Outcome::cancelled). A call that looks at pairs more than
+  // once begins again with 0. It runs in the floating-point environment of the library, and may run parallel
+  // work of its own. One thread calls at a time, the
   // caller's or one of its arena's; an exception that it throws leaves the call. It must not call into the
   // same LineSearch.
   std::function<bool(double)> progress;

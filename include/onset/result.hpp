@@ -12,6 +12,7 @@
 namespace onset {
 
 enum class PairKind : std::uint8_t { vertex_face, edge_edge };
+ONSET_API const char* to_string(PairKind kind);
 
 // One pair of primitives.
 struct Pair {

@@ -53,12 +53,12 @@ ONSET_API double safe_step(const std::vector<double>& r, const Positions& dx);
 // listed one has no gap to speak of. Where copies that a mesh welds (CollisionRules::weld) part in this
 // motion, the step is 0 (initial_contact) and `vertex` is one of them.
 //
-// x_t0, x_t1: #V x 3, model length, the two ends of a linear motion; that static vertices stay is
-// not checked.
+// x_t0, x_t1: #V x 3, model length, the two ends of a linear motion.
 // close: all close pairs of this mesh at x_t0, made with the same options.
 // gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0 (of d_hat, where it is not listed), as
 // in LineSearch, so that the next step is > 0 while gaps are more than twice StepResult::rounding.
-// Throws as safe_distances, and std::invalid_argument for options or gap_share out of range.
+// Throws as safe_distances, and std::invalid_argument for options or gap_share out of range, or a static
+// vertex that moves.
 // Safe to call concurrently on one Mesh.
 //
 // Source: Courant, Friedrichs, Lewy, "Ueber die partiellen Differenzengleichungen der mathematischen Physik",

@@ -65,12 +65,10 @@ ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Pos
 // not that of the call without a list, which does not look at pairs whose boxes are never at one place at one
 // time.
 //
-// candidates: pairs by id, in any order. Nothing else of it is used, its outcome neither: the empty list that
-// a spent budget left limits nothing.
-// gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0, as in LineSearch, so that the next
-// step is > 0.
-// Throws as above (but does not notice a static vertex that moves), and std::invalid_argument for gap_share
-// out of range, or naming the row for an id out of range or a pair that shares a vertex.
+// candidates: pairs by id, in any order, those that the rules of the mesh leave out limiting nothing; counts
+// and statistics are not used. gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0, as in
+// LineSearch. Throws as above, and std::invalid_argument for gap_share out of range, candidates with an
+// outcome (they are not complete), or naming the row for an id out of range or a pair that shares a vertex.
 // Safe to call concurrently on one Mesh.
 ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& candidates,
                                                      const Positions& x_t0, const Positions& x_t1,

@@ -66,6 +66,7 @@ void add_if_close(const CloseInput& in, PairKind kind, IdPair ids, std::vector<C
 }
 
 Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& input, Budget& budget) {
+  static_assert(sizeof(ClosePair) == 88, "as documented");
   const std::size_t most = std::size_t(input.options.memory_limit / std::int64_t(sizeof(ClosePair)));
   auto all = gather<ClosePair>(
       candidates, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,

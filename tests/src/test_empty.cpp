@@ -1,4 +1,6 @@
 // Meshes without vertices, faces or edges are free.
+#include <string>
+
 #include "tests/catch.hpp"
 #include "tests/src/support/scene_set.hpp"
 
@@ -72,6 +74,8 @@ TEST_CASE("edges without faces meet each other, a face meets a vertex of no othe
   CHECK(face.outcome == Outcome::contact);
   REQUIRE(face.limiting);
   CHECK(face.limiting->kind == PairKind::vertex_face);
+  CHECK(std::string(to_string(face.limiting->kind)) == "vertex_face");
+  CHECK(std::string(to_string(PairKind::edge_edge)) == "edge_edge");
   CHECK(face.step > 0.499);
   CHECK(face.step <= 0.5);
 }

@@ -314,7 +314,7 @@ class Candidates {
 //
 // Guarantee: no pair comes as close as min_distance, along the exact motion x0 + s dx, s in [0, step], and as
 // the end of that is stored, with dx = vertices_t1 - vertices_t0 rounded to doubles (vertices_t1 itself,
-// where can_collide is set). NaN and the like: 0, or Candidates::build throws, where can_collide is set.
+// where can_collide is set). NaN and infinities: 0.
 //
 // vertices_t0, vertices_t1: #V x 3, surface positions; vertices_t0 is assumed to be free of intersections.
 // min_distance: model length, >= 0.
