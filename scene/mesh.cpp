@@ -53,10 +53,6 @@ std::shared_ptr<MeshData> make_data(std::ptrdiff_t vertices, std::vector<std::ar
   return data;
 }
 
-}  // namespace
-
-namespace {
-
 const std::shared_ptr<MeshData>& no_vertices() {
   static const std::shared_ptr<MeshData> data = make_data(0, {}, {}, {});
   return data;
@@ -116,10 +112,7 @@ std::ptrdiff_t Mesh::num_faces() const { return std::ptrdiff_t(data_->faces.size
 std::array<int, 2> Mesh::edge(std::ptrdiff_t row) const { return data_->edges.at(std::size_t(row)); }
 std::array<int, 3> Mesh::face(std::ptrdiff_t row) const { return data_->faces.at(std::size_t(row)); }
 
-int Mesh::num_bodies() const {
-  const std::vector<int>& body = data_->body;
-  return body.empty() ? 1 : *std::max_element(body.begin(), body.end()) + 1;
-}
+int Mesh::num_bodies() const { return count_bodies(*data_); }
 int Mesh::body(std::ptrdiff_t vertex) const {
   return data_->body.empty() ? 0 : data_->body.at(std::size_t(vertex));
 }

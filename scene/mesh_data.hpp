@@ -56,12 +56,22 @@ struct MeshData {
   std::shared_ptr<BroadPhasePool> broad_phases;
 };
 
+// Returns the largest id of a body + 1.
+inline int count_bodies(const MeshData& mesh) {
+  return mesh.body.empty() ? 1 : *std::max_element(mesh.body.begin(), mesh.body.end()) + 1;
+}
+
 // Returns the largest thickness of the vertices [first, last).
 inline double thickest(const MeshData& mesh, const int* first, const int* last) {
   double r = 0;
   for (; first != last && !mesh.thickness.empty(); ++first)
     r = std::max(r, mesh.thickness[std::size_t(*first)]);
   return r;
+}
+
+// The largest thickness of all vertices.
+inline double thickest(const MeshData& mesh) {
+  return mesh.thickness.empty() ? 0 : *std::max_element(mesh.thickness.begin(), mesh.thickness.end());
 }
 
 }  // namespace onset

@@ -33,8 +33,7 @@ std::vector<bool> marked(std::size_t size, const std::vector<std::array<int, 2>>
 }
 
 void make_keys(const MeshData& m, PrimitiveFilter& filter) {
-  int bodies = 1;
-  for (int b : m.body) bodies = std::max(bodies, b + 1);
+  const int bodies = count_bodies(m);
   const std::vector<bool> body_named = marked(std::size_t(bodies), m.excluded_bodies);
   const std::vector<bool> vertex_named = marked(std::size_t(m.num_vertices), m.excluded_vertices);
   for (const Primitive kind : kPrimitives) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/float_environment.hpp"
+#include "scene/motion/motion.hpp"
 #include "scene/named_pairs.hpp"
 
 namespace onset {
@@ -77,16 +78,12 @@ void apply_points(const std::vector<int>& ids, MeshData& data) {
 void apply_thickness(const std::vector<double>& thickness, MeshData& data) {
   if (!thickness.empty()) check_size("thickness", thickness.size(), data.num_vertices, "vertices");
   for (std::size_t v = 0; v < thickness.size(); ++v)
-    if (!(thickness[v] >= 0 && thickness[v] <= 0x1p1020))
+    if (!(thickness[v] >= 0 && thickness[v] <= kMaxCoordinate))
       reject_row("thickness", std::ptrdiff_t(v),
                  std::to_string(thickness[v]) + " is not a number >= 0, at most 2^1020");
   // No thickness at all is cheaper than one of 0 everywhere.
   const bool any = std::any_of(thickness.begin(), thickness.end(), [](double t) { return t > 0; });
   data.thickness = any ? thickness : std::vector<double>();
-}
-
-int count_bodies(const MeshData& data) {
-  return data.body.empty() ? 1 : *std::max_element(data.body.begin(), data.body.end()) + 1;
 }
 
 std::vector<bool> flags_of_bodies(const char* what, const std::vector<bool>& flags, const MeshData& data) {

@@ -66,10 +66,6 @@ void find_bad_vertex(Motion& m) {
         m.status = o, m.bad_vertex = v;
 }
 
-}  // namespace
-
-namespace {
-
 // Finds the canonical axes from the free vertices and what is known of the others. Returns false where a
 // position is not usable.
 bool axes_around(const PrimitiveFilter& filter, const StaticMotion& still, const Positions& x_t0,

@@ -52,8 +52,7 @@ void check_gap_share(double gap_share) {
 
 double largest_separation(const MeshData& mesh, const Options& options) {
   if (mesh.thickness.empty()) return options.min_separation;
-  const double thickest = *std::max_element(mesh.thickness.begin(), mesh.thickness.end());
-  return (options.min_separation + 2 * thickest) * (1 + 0x1p-51);
+  return (options.min_separation + 2 * thickest(mesh)) * (1 + 0x1p-51);
 }
 
 double absolute_tolerance(const Options& options, double extent) {

@@ -39,10 +39,8 @@ void check_d_hat(double d_hat, bool zero_allowed) {
 }
 
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding) {
-  double thickness = 0;
-  if (!mesh.thickness.empty()) thickness = *std::max_element(mesh.thickness.begin(), mesh.thickness.end());
   const double ratio = norm_ratio(options);  // the thickness is added where a pair is looked at
-  const double separation = ratio * options.min_separation + (ratio - 1) * 2 * thickness;
+  const double separation = ratio * options.min_separation + (ratio - 1) * 2 * thickest(mesh);
   return (separation + d_hat + rounding) * (1 + 0x1p-48);
 }
 
