@@ -47,7 +47,7 @@ std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const Broad
 }  // namespace
 
 void StepSetup::give_back_broad() {
-  if (broad && pool_) pool_->give_back(slot_, std::move(broad));
+  if (broad && pool_) pool_->put(std::move(broad), slot_);
   broad.reset();
 }
 
