@@ -46,10 +46,6 @@ bool moving_boxes_apart(const MotionBox& a, const MotionBox& b) {
   return begin * (1 - kSlack) > end * (1 + kSlack) + kLeast;
 }
 
-}  // namespace
-
-namespace {
-
 double widest(const BroadPhaseInput& input, Primitive kind, int id, double inflation) {
   const std::vector<double>& thickness = input.mesh.thickness;
   if (thickness.empty()) return inflation;

@@ -12,7 +12,7 @@ bool PairDecision::decides_completely() const {
   return uses_exact() && in_.options.exactness == Exactness::exact;
 }
 
-ExactPair PairDecision::exact_pair_of_this() const { return exact_pair(asked_.kind, in_.motion, vertices()); }
+ExactPair PairDecision::exact_pair_of_this() const { return exact_pair(kind_, in_.motion, vertices()); }
 
 // Returns `unknown` where integers are not asked or too dear. Contacts before `from` > 0 do not count. Near
 // touching at the start doubles cannot tell a contact soon after from parting: there they are always asked.
@@ -67,7 +67,7 @@ double PairDecision::distance_before_touching(const DoubleBracket& time) const {
 // Tells whether a look from found.t on shows points within the separation.
 bool PairDecision::seen_within_separation(const KernelResult& found) const {
   if (in_.options.exactness != Exactness::exact) return false;
-  const double d = pairs_.separation[asked_.row] / found.unit;
+  const double d = pairs_.separation[row_] / found.unit;
   if (d == 0) return false;
   for (double ahead = 0x1p-20; ahead <= 1; ahead *= 4)
     if (distance_at(found.t + ahead * (1 - found.t)) <= d) return true;

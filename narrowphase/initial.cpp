@@ -92,10 +92,6 @@ double latest(double t, Parts&& parts) {
   return t;
 }
 
-}  // namespace
-
-namespace {
-
 // Parts a pair within noise of touching along a direction that divides it, if it never touches before,
 // exactly.
 double part_from_noise(const InitialCase& c, const Hull& here, double noise, Vec& n) {

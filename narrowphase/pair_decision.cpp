@@ -16,17 +16,17 @@ KernelPairs without_storing(KernelPairs pairs, double t_max) {
 }
 
 const Corners& PairDecision::corners() const {
-  if (!corners_) corners_ = make_corners(asked_.kind, in_.motion, vertices());
+  if (!corners_) corners_ = make_corners(kind_, in_.motion, vertices());
   return *corners_;
 }
 
 double PairDecision::distance_at(double t) const {
   double w[3];
-  return kernels_.closest_direction(pairs_, asked_.row, t, w);
+  return kernels_.closest_direction(pairs_, row_, t, w);
 }
 
 void PairDecision::advance(const KernelResume* resume, KernelResult& result) const {
-  kernels_.advance(pairs_, &asked_.row, 1, resume, &result);
+  kernels_.advance(pairs_, &row_, 1, resume, &result);
 }
 
 std::optional<PairResult> PairDecision::contact(const KernelResult& checked, double from) {
@@ -118,7 +118,7 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
     found.distance = distance_before_touching(exact.time);
   else if (found.verdict != Verdict::contact || found.checks <= 1)
     found.distance = std::min(searched ? found.distance : INFINITY, distance_at(found.t));
-  PairResult r{asked_.pair, found.t, found.t, std::max(0.0, (found.distance - found.separation) * found.unit),
+  PairResult r{pair_, found.t, found.t, std::max(0.0, (found.distance - found.separation) * found.unit),
                PairOutcome::contact};
   if (found.verdict == Verdict::max_checks && !real) r.outcome = PairOutcome::max_checks;
   if (real || seen_within_separation(found)) r.certainty = r.limit_certainty = Certainty::certain;
@@ -132,7 +132,7 @@ PairResult PairDecision::report(KernelResult found, const ExactAnswer& exact, do
 PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResult& found,
                                           const ExactAnswer& exact) {
   const double d = found.separation;
-  PairResult r{asked_.pair, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
+  PairResult r{pair_, 0, 0, std::max(0.0, (std::min(start.upper, found.distance) - d) * found.unit),
                PairOutcome::initial_contact};
   const bool touching =
       exact.answer == Answer::yes ? exact.time.hi == 0 : start.lower <= 0 && touches_at_start();
@@ -162,8 +162,7 @@ void PairDecision::add_contact_after_parting(const KernelResult& found, const Pa
   later.verdict = later.checks < in_.options.max_checks ? Verdict::stalled : Verdict::max_checks;
   KernelPairs whole = pairs_;
   whole.t_max = whole.cull_t_max = 1;
-  PairDecision rest({in_, kernels_, whole, asked_.row, asked_.kind, asked_.pair}, stats_);
-  const std::optional<PairResult> next = rest.contact(later, parting.t);
+  const std::optional<PairResult> next = of(whole).contact(later, parting.t);
   r.step_limit = next ? next->step_limit : INFINITY;
   if (!next) return;
   r.limit_certainty = next->certainty;

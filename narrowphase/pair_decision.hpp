@@ -42,7 +42,9 @@ class PairDecision {
       : in_(question.in),
         kernels_(question.kernels),
         pairs_(question.pairs),
-        asked_(question),
+        row_(question.row),
+        kind_(question.kind),
+        pair_(question.pair),
         stats_(stats) {}
 
   // Finds the contact of the exact motion. Advancement left the pair as `checked`, apart or parting until
@@ -63,8 +65,12 @@ class PairDecision {
     Vec w;
   };
 
-  const int (&vertices() const)[4] { return pairs_.vertices[asked_.row]; }
-  double separation() const { return pairs_.separation[asked_.row]; }  // model length
+  // Asks the same of the same row of another batch.
+  PairDecision of(const KernelPairs& pairs) const {
+    return PairDecision({in_, kernels_, pairs, row_, kind_, pair_}, stats_);
+  }
+  const int (&vertices() const)[4] { return pairs_.vertices[row_]; }
+  double separation() const { return pairs_.separation[row_]; }  // model length
   const Corners& corners() const;
   double distance_at(double t) const;  // scaled upper bound
   void advance(const KernelResume* resume, KernelResult& result) const;
@@ -107,7 +113,9 @@ class PairDecision {
   const NarrowPhaseInput& in_;
   const KernelsOfKind& kernels_;
   const KernelPairs& pairs_;
-  const PairQuestion asked_;
+  const int row_;
+  const PairKind kind_;
+  const IdPair pair_;
   NarrowPhaseStats& stats_;
   mutable std::optional<Corners> corners_;
 };

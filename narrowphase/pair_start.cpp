@@ -34,14 +34,14 @@ double certified_until(const Corners& corners, const Vec& w, double norm, double
 
 bool PairDecision::is_welded() const {
   const int(&v)[4] = vertices();
-  return in_.mesh.weld && is_seam(in_.motion, asked_.kind, {v[0], v[1], v[2], v[3]});
+  return in_.mesh.weld && is_seam(in_.motion, kind_, {v[0], v[1], v[2], v[3]});
 }
 
 PairDecision::Bounds PairDecision::bounds_at(double t) const {
   Bounds r{};
   const ExactPair pair = exact_pair_of_this();
   if (pairs_.maximum_norm) {
-    r.w = best_direction_in_maximum_norm(PreciseMotion(asked_.kind, pair.t0, pair.t1).at(t));
+    r.w = best_direction_in_maximum_norm(PreciseMotion(kind_, pair.t0, pair.t1).at(t));
     const double size = sum_of_magnitudes(r.w);
     r.lower = size > 0 ? (least(corners(), t, r.w) - 8 * kU * corners().rho) / size * (1 - 0x1p-49) : 0;
     // The best direction shows all of the distance but rounding: 40u rho is proved (docs/theory.md, L44).
@@ -49,7 +49,7 @@ PairDecision::Bounds PairDecision::bounds_at(double t) const {
     return r;
   }
   const ClosestPoints found =
-      t == 0 ? closest_points(asked_.kind, pair.t0) : closest_points(asked_.kind, pair.t0, pair.t1, t);
+      t == 0 ? closest_points(kind_, pair.t0) : closest_points(kind_, pair.t0, pair.t1, t);
   r.w = vec(found.direction);
   r.lower = found.lower / corners().unit;
   r.upper = found.upper / corners().unit;
@@ -59,8 +59,7 @@ PairDecision::Bounds PairDecision::bounds_at(double t) const {
 Parting PairDecision::find_parting_of(const Bounds& start, double separation, bool touching) const {
   const ExactPair exact = exact_pair_of_this();
   const std::function<Vec(double)> direction = [&](double t) { return t == 0 ? start.w : bounds_at(t).w; };
-  return find_parting(
-      {corners(), pairs_, asked_.row, asked_.kind, separation, direction, touching ? nullptr : &exact});
+  return find_parting({corners(), pairs_, row_, kind_, separation, direction, touching ? nullptr : &exact});
 }
 
 // Goes on at t, where `at` shows the pair beyond d + kept. Where the full demand certifies nothing, d + kept

@@ -29,12 +29,12 @@ double PairDecision::storing_rounding() const {
 
 std::optional<PairResult> PairDecision::from_scratch() {
   KernelPairs one = pairs_;
-  one.vertices += asked_.row, one.separation += asked_.row, one.count = 1;
+  one.vertices += row_, one.separation += row_, one.count = 1;
   if (int survivor = 0; !in_.inclusion_only() && kernels_.cull(one, &survivor) == 0) return std::nullopt;
   KernelResult r;
   advance(nullptr, r);
   if (r.verdict == Verdict::free) return std::nullopt;
-  if (in_.options.exactness != Exactness::conservative) kernels_.certify(pairs_, &asked_.row, 1, &r);
+  if (in_.options.exactness != Exactness::conservative) kernels_.certify(pairs_, &row_, 1, &r);
   if (in_.inclusion_only()) r.checks = 0;
   stats_.checks += r.checks;
   return contact(r);
@@ -42,17 +42,17 @@ std::optional<PairResult> PairDecision::from_scratch() {
 
 // Finds the contact of the exact motion as an active set does, whatever t_max is.
 std::optional<PairResult> PairDecision::exact_motion() {
-  if (in_.contacts != nullptr && !in_.contacts->holds(in_.contacts->context, asked_.kind, asked_.pair))
+  if (in_.contacts != nullptr && !in_.contacts->holds(in_.contacts->context, kind_, pair_))
     return std::nullopt;
   const KernelPairs plain = without_storing(pairs_, 1);
-  return PairDecision({in_, kernels_, plain, asked_.row, asked_.kind, asked_.pair}, stats_).from_scratch();
+  return of(plain).from_scratch();
 }
 
 void PairDecision::note_kept(double share) {
   if (share >= in_.gap_share * (1 - 0x1p-20)) return;
   NarrowPhaseStats here;
   here.least_share = share;
-  here.closest = asked_.pair;
+  here.closest = pair_;
   stats_.add(here);
 }
 
@@ -82,7 +82,7 @@ std::optional<PairResult> PairDecision::stored_step(const KernelResult& checked)
   const PairOutcome outcome = spent                              ? PairOutcome::max_checks
                               : in_.gap_share > 0 && found.t > 0 ? PairOutcome::contact
                                                                  : PairOutcome::below_rounding;
-  PairResult r{asked_.pair, INFINITY, INFINITY, 0, outcome};
+  PairResult r{pair_, INFINITY, INFINITY, 0, outcome};
   if (contact)
     r = *contact;
   else if (!free)
