@@ -45,9 +45,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     set.outcome = setup.motion.status;
     set.vertex = setup.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
-    TraversalResult traversal = setup.broad
-                                    ? find_contacts(mesh, setup, options, Collect::all, budget, set.stats)
-                                    : TraversalResult{};
+    TraversalResult traversal = find_contacts(mesh, setup, options, Collect::all, budget, set.stats);
     const double begun = setup.clock.seconds();
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);

@@ -39,7 +39,7 @@ class CandidateList {
     const auto visit = [&](Task& task, const IdPair* pairs, std::size_t n) { take(kind, pairs, n, task); };
     const auto merge = [&](Task& task) {
       count += task.count;
-      listed.insert(listed.end(), task.listed.begin(), task.listed.end());
+      listed.insert(listed.end(), task.ids.begin(), task.ids.end());
     };
     visit_pairs(*setup_.broad, kind, kBlocksATask, Task{}, budget_, visit, merge, [] { return false; });
     parallel_sort(listed.begin(), listed.end(), [](const auto& p, const auto& q) { return p < q; });
@@ -51,11 +51,11 @@ class CandidateList {
   static constexpr std::size_t kBlocksATask = 64;
   struct Task {
     std::int64_t count = 0;
-    Ids listed, visited;
+    Ids ids;  // listed, or about to be visited
   };
 
   void take(PairKind kind, const IdPair* pairs, std::size_t n, Task& task) {
-    Ids& out = use_.list ? task.listed : task.visited;
+    Ids& out = task.ids;
     const std::size_t before = out.size();
     const bool lists = use_.list ? room_ >= 0 : use_.visitor != nullptr;
     for (std::size_t i = 0; i < n; ++i) {

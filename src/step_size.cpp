@@ -26,8 +26,7 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
   r.outcome = setup.motion.status;
   r.vertex = setup.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;
-  const TraversalResult traversal =
-      setup.broad ? find_contacts(mesh, setup, options, collect, budget, r.stats) : TraversalResult{};
+  const TraversalResult traversal = find_contacts(mesh, setup, options, collect, budget, r.stats);
   limit_step(mesh, traversal, budget, 1, 1, r);
   r.rounding = reported_rounding(setup.rounding);
   r.stats.seconds_total = setup.clock.seconds();

@@ -79,6 +79,7 @@ std::size_t most_contacts(const Options& options) {
 
 TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect,
                               Budget& budget, Stats& stats) {
+  if (!setup.broad) return {};
   const double begun = setup.clock.seconds();
   const TraversalBounds limited = collect == Collect::all ? bounds(options) : TraversalBounds{};
   NarrowPhaseInput input{mesh.data(), setup.motion, setup.accuracy.tolerance, setup.accuracy.extent, options};

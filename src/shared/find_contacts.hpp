@@ -10,7 +10,7 @@ namespace onset {
 std::size_t most_contacts(const Options& options);
 
 // Decides the candidates of `setup` that can matter to what is collected, and fills counts and times of
-// `stats`. It may shrink the boxes of `setup`.
+// `stats`. It may shrink the boxes of `setup`. Without a broad phase there are no candidates.
 TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect,
                               Budget& budget, Stats& stats);
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <mutex>
-#include <type_traits>
 #include <vector>
 
 #include "base/parallel.hpp"

@@ -21,8 +21,8 @@ class Near {
   // as much; but for what is welded.
   void add_near(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     std::vector<ClosePair> close;
-    for (std::size_t i = 0; i < count; ++i)
-      add_if_close({mesh_, x_.data(), 0, 0, options_}, kind, pairs[i], close);
+    const CloseInput input{mesh_, x_.data(), 0, 0, options_};
+    for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
     for (const ClosePair& p : close) {
       const double* x[4];
       for (std::size_t i = 0; i < 4; ++i) x[i] = motion_.t0(p.vertices[i]);
