@@ -1,0 +1,69 @@
+#include <onset/compat/ipc.hpp>
+
+#include "tests/src/support/call_parts.hpp"
+
+namespace onset::tests {
+namespace {
+
+// The surface of a mesh of twice as many vertices, of which every second one is its own.
+ipc::CollisionMesh surface_of_more(const Subject& s) {
+  const Eigen::Index n = s.scene.x_t0.rows();
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(2 * n, 3);
+  for (Eigen::Index v = 0; v < n; ++v) full.row(2 * v + 1) = s.scene.x_t0.row(v);
+  const Eigen::MatrixXi F = (2 * s.scene.faces.array() + 1).matrix();
+  return ipc::CollisionMesh::build_from_full_mesh(full, edges(F), F);
+}
+
+Eigen::SparseMatrix<double> identity(Eigen::Index size) {
+  Eigen::SparseMatrix<double> m(size, size);
+  m.setIdentity();
+  return m;
+}
+
+void add_candidates(const ipc::Candidates& c, Answer& a) {
+  a.add(c.size(), c.empty());
+  for (const auto& p : c.vv_candidates) a.add(p.vertex0_id, p.vertex1_id);
+  for (const auto& p : c.ev_candidates) a.add(p.edge_id, p.vertex_id);
+  for (const auto& p : c.ee_candidates) a.add(p.edge0_id, p.edge1_id);
+  for (const auto& p : c.fv_candidates) a.add(p.face_id, p.vertex_id);
+}
+
+}  // namespace
+
+void ask_surfaces(const Mesh&, const Subject& s, const Options&, Answer& a) {
+  const Eigen::MatrixXd& x = s.scene.x_t0;
+  const ipc::CollisionMesh mapped(x, edges(s.scene.faces), s.scene.faces, identity(x.rows()));
+  for (const ipc::CollisionMesh& mesh : {surface_of_more(s), mapped}) {
+    a.add(mesh.rest_positions(), mesh.edges(), mesh.faces(), mesh.num_vertices(), mesh.num_edges(),
+          mesh.num_faces(), mesh.codim_vertices(), mesh.num_codim_vertices(), mesh.ndof(),
+          mesh.full_num_vertices(), mesh.full_ndof(), mesh.dim(), mesh.to_full_vertex_id(1));
+    const Eigen::MatrixXd full = Eigen::MatrixXd::Ones(Eigen::Index(mesh.full_num_vertices()), 3);
+    a.add(mesh.vertices(full), mesh.displace_vertices(full), mesh.map_displacements(full));
+    a.add(mesh.to_full_dof(Eigen::VectorXd(Eigen::VectorXd::Ones(Eigen::Index(mesh.ndof())))));
+    a.add(Eigen::MatrixXd(mesh.to_full_dof(identity(Eigen::Index(mesh.ndof()))).diagonal()));
+    a.add(mesh.onset_mesh().num_edges());
+  }
+}
+
+// Twice: all vertices may collide, and only those with an odd sum of ids.
+void ask_adapter(const Mesh&, const Subject& s, const Options&, Answer& a) {
+  const Eigen::MatrixXd &x_t0 = s.scene.x_t0, &x_t1 = s.scene.x_t1;
+  ipc::CollisionMesh mesh(x_t0, edges(s.scene.faces), s.scene.faces);
+  const ipc::TightInclusionCCD ccd = ipc::DEFAULT_NARROW_PHASE_CCD;
+  a.add(ipc::options_of(0.5, ccd).min_separation);
+  for (const bool filtered : {false, true}) {
+    if (filtered) mesh.can_collide = [](std::size_t i, std::size_t j) { return (i + j) % 2 == 1; };
+    a.add(ipc::compute_collision_free_stepsize(mesh, x_t0, x_t1), ipc::has_intersections(mesh, x_t1),
+          ipc::is_step_collision_free(mesh, x_t0, x_t1));
+    ipc::Candidates candidates;
+    candidates.build(mesh, x_t0, 0.5 * s.d_hat);
+    add_candidates(candidates, a);
+    candidates.build(mesh, x_t0, x_t1);
+    add_candidates(candidates, a);
+    a.add(candidates.compute_collision_free_stepsize(mesh, x_t0, x_t1),
+          candidates.is_step_collision_free(mesh, x_t0, x_t1));
+    candidates.clear();
+  }
+}
+
+}  // namespace onset::tests
