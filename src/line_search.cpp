@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "base/parallel.hpp"
+#include "base/text_stream.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 std::vector<double> sum(const Positions& x, const Positions& dx) {
   if (x.rows() != dx.rows() || x.cols() != 3 || dx.cols() != 3) {
-    std::ostringstream s;
+    TextStream s;
     s << "x_t0 has " << x.rows() << " rows of " << x.cols() << " coordinates, dx has " << dx.rows() << " of "
       << dx.cols() << "; both need one row of 3 for each vertex";
     throw std::invalid_argument(s.str());

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
+#include "base/text_stream.hpp"
 #include "scene/motion/extents.hpp"
 
 namespace onset {
 namespace {
 
 [[noreturn]] void reject(const char* name, double value, const char* wanted) {
-  std::ostringstream s;
+  TextStream s;
   s.precision(17);
   s << name << " is " << value << "; it must be " << wanted;
   throw std::invalid_argument(s.str());

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
+#include "base/text_stream.hpp"
 #include "narrowphase/distance/closest_points.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion/motion.hpp"
@@ -32,7 +32,7 @@ double separation_of(const CloseInput& in, const Pair& pair) {
 
 void check_d_hat(double d_hat, bool zero_allowed) {
   if ((zero_allowed ? d_hat >= 0 : d_hat > 0) && d_hat <= kMaxCoordinate) return;
-  std::ostringstream s;
+  TextStream s;
   s << "d_hat is " << d_hat << "; it must be a number " << (zero_allowed ? ">= 0" : "> 0")
     << ", at most 2^1020";
   throw std::invalid_argument(s.str());

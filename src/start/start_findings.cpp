@@ -1,13 +1,13 @@
 #include "src/start/start_findings.hpp"
 
-#include <sstream>
+#include "base/text_stream.hpp"
 
 namespace onset {
 namespace {
 
 template <class Ids>
 std::string listed(const Ids& ids) {
-  std::ostringstream s;
+  TextStream s;
   for (std::size_t i = 0; i < ids.size(); ++i)
     s << (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") << ids[i];
   return s.str();
@@ -42,7 +42,7 @@ std::string of_intersections(const StartReport& report) {
   for (const Intersection& p : report.intersections) crossing += p.kind == IntersectionKind::crossing;
   const Intersection& p = report.intersections.front();
   const int* v = p.vertices.data();
-  std::ostringstream s;
+  TextStream s;
   s << counted(report.intersections.size(), "edge-face pair intersects", "edge-face pairs intersect") << " ("
     << crossing << " crossing), first edge " << p.edge << " (" << vertices_of(v, v + (v[0] == v[1] ? 1 : 2))
     << ") and face " << p.face << " (" << vertices_of(v + 2, v + 5) << "), " << to_string(p.kind)
@@ -63,7 +63,7 @@ std::string of_touching(const StartReport& report) {
 
 std::string of_close(const StartReport& report) {
   const ClosePair& p = report.within_separation.front();
-  std::ostringstream s;
+  TextStream s;
   s << counted(report.within_separation.size(), "pair is", "pairs are") << " within the separation, first "
     << named(p) << ", " << p.distance << " apart where " << p.separation
     << " is to be kept: move them apart, lower Options::min_separation or rules.thickness, or leave them "

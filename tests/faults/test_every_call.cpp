@@ -1,6 +1,8 @@
-// every_call() leaves out no function of the public headers, and gives the same bytes each time.
+// every_call() leaves out no function of the public headers, and gives the same bytes each time, whatever
+// locale the host has.
 #include <filesystem>
 #include <fstream>
+#include <locale>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -84,4 +86,21 @@ TEST_CASE("the list of calls gives the same answers each time", "[faults]") {
         CHECK(answer != Answer());
       }
   }
+}
+
+TEST_CASE("no locale of the host changes an answer", "[faults]") {
+  struct Other : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\1"; }
+  };
+  for (const Subject& subject : small_subjects())
+    for (const Call& call : every_call()) {
+      CAPTURE(subject.name, call.name);
+      const Answer expected = call(subject.mesh(), subject, {});
+      const std::locale host = std::locale::global(std::locale(std::locale(), new Other));
+      const Answer answer = call(subject.mesh(), subject, {});
+      std::locale::global(host);
+      CHECK(answer == expected);
+    }
 }

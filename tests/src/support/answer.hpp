@@ -30,6 +30,7 @@ class Answer {
     (add_one(values), ...);
     return *this;
   }
+
  private:
   template <class T>
   std::enable_if_t<std::is_arithmetic_v<T> || std::is_enum_v<T>> add_one(T value) {
