@@ -1,67 +1,67 @@
-// Parallel loops, arenas and sorts; no other file includes TBB.
+// Parallel loops, arenas and sorts. One of two back ends defines them, as the build says (ONSET_THREADS in
+// docs/building.md): parallel_tbb.cpp, the only file that includes TBB, or parallel_threads.cpp.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-#include <tbb/task_arena.h>
-
+#include <algorithm>
 #include <cstddef>
-#include <memory>
+#include <iterator>
 
 #include "base/float_environment.hpp"
+#include "base/function_ref.hpp"
 
 namespace onset {
 
-// f(first, last) over [0, count) in chunks of about `grain`, in the current arena. Workers keep the
-// floating-point environment that they were made in: each chunk has its own.
+namespace backend {
+void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> f);
+void run_in_arena(int threads, FunctionRef<> f);
+}  // namespace backend
+
+// f(first, last) over [0, count) in chunks of about `grain`, in the current arena. An exception of f leaves
+// the loop, once no chunk runs any more. Workers keep the floating-point environment that they were made in:
+// each chunk has its own.
 template <class F>
 void parallel_ranges(std::size_t count, std::size_t grain, F&& f) {
   if (count <= grain) {
     if (count > 0) f(std::size_t(0), count);
     return;
   }
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, grain),
-      [&](const tbb::blocked_range<std::size_t>& r) { in_float_environment(f, r.begin(), r.end()); });
+  const auto chunk = [&](std::size_t first, std::size_t last) { in_float_environment(f, first, last); };
+  backend::run_ranges(count, grain, FunctionRef<std::size_t, std::size_t>(chunk));
 }
-
-// An arena for one call, out of those that earlier calls with as many threads gave back. This TBB frees no
-// arena that ran a loop: one a call would leak.
-class LentArena {
- public:
-  explicit LentArena(int threads);
-  ~LentArena();
-  LentArena(const LentArena&) = delete;
-  LentArena& operator=(const LentArena&) = delete;
-  tbb::task_arena* operator->() const { return arena_.get(); }
-
- private:
-  int threads_;
-  std::unique_ptr<tbb::task_arena> arena_;
-};
 
 // f() in the caller's arena (threads == 0) or in one of at most `threads`, in the floating-point environment
 // of all promises. A thread that waits inside takes on no other work of the caller's arena.
 template <class F>
 void in_arena(int threads, F&& f) {
-  const auto alone = [&] { tbb::this_task_arena::isolate([&] { in_float_environment(f); }); };
-  if (threads == 0) {
-    alone();
-  } else {
-    const LentArena arena(threads);
-    arena->execute(alone);
-  }
+  const auto alone = [&] { in_float_environment(f); };
+  backend::run_in_arena(threads, FunctionRef<>(alone));
 }
 
 // Returns how many threads the current arena may use.
-inline int current_threads() { return tbb::this_task_arena::max_concurrency(); }
+int current_threads();
 
-// A total order is required of `less`: the result is then independent of the number of threads. It compares
-// integers, or doubles in the floating-point environment of whoever runs it.
+// A total order is required of `less`: the result is then independent of the number of threads.
 template <class It, class Less>
 void parallel_sort(It first, It last, Less less) {
-  tbb::parallel_sort(first, last, less);
+  constexpr std::size_t kFew = 2000, kMostPieces = 64;
+  const std::size_t count = std::size_t(last - first);
+  std::size_t pieces = 1;
+  while (pieces < kMostPieces && pieces < std::size_t(current_threads()) && count / pieces > kFew)
+    pieces *= 2;
+  if (pieces == 1) return std::sort(first, last, less);
+  const auto at = [&](std::size_t piece) {
+    return first + typename std::iterator_traits<It>::difference_type(count / pieces * piece +
+                                                                      count % pieces * piece / pieces);
+  };
+  parallel_ranges(pieces, 1, [&](std::size_t piece, std::size_t end) {
+    for (; piece < end; ++piece) std::sort(at(piece), at(piece + 1), less);
+  });
+  for (std::size_t width = 1; width < pieces; width *= 2)
+    parallel_ranges(pieces / (2 * width), 1, [&](std::size_t merge, std::size_t end) {
+      for (; merge < end; ++merge)
+        std::inplace_merge(at(2 * merge * width), at((2 * merge + 1) * width), at((2 * merge + 2) * width),
+                           less);
+    });
 }
 
 }  // namespace onset

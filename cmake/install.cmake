@@ -13,14 +13,17 @@ install(DIRECTORY include/onset DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MA
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/onset)
 install(EXPORT onsetTargets NAMESPACE onset:: DESTINATION ${onset_cmake_dir})
 
-# TBB is private: only who links the static library has to find it.
+# TBB, or the system's threads, are private: only who links the static library has to find them.
 get_target_property(onset_type onset TYPE)
-if(onset_type STREQUAL "STATIC_LIBRARY")
-  set(ONSET_IS_STATIC ON)
-  set(onset_pc_requires "eigen3, tbb")
-else()
-  set(ONSET_IS_STATIC OFF)
-  set(onset_pc_requires "eigen3")
+set(onset_needs "")
+set(onset_pc_requires "eigen3")
+set(onset_pc_libs "")
+if(onset_type STREQUAL "STATIC_LIBRARY" AND ONSET_THREADS STREQUAL "TBB")
+  set(onset_needs TBB)
+  string(APPEND onset_pc_requires ", tbb")
+elseif(onset_type STREQUAL "STATIC_LIBRARY")
+  set(onset_needs Threads)
+  set(onset_pc_libs " -pthread")
 endif()
 
 configure_package_config_file(cmake/onsetConfig.cmake.in onsetConfig.cmake INSTALL_DESTINATION ${onset_cmake_dir})

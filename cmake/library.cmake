@@ -11,7 +11,7 @@ target_compile_features(onset PUBLIC cxx_std_17)
 target_compile_definitions(onset PRIVATE $<$<OR:$<CONFIG:Debug>,$<BOOL:${ONSET_ASSERTS}>>:ONSET_ASSERTS>)
 target_include_directories(onset PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                  PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE TBB::tbb $<BUILD_INTERFACE:Boost::boost>)
+target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE ${onset_threads} $<BUILD_INTERFACE:Boost::boost>)
 target_compile_options(onset PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off -fno-fast-math -Wall -Wextra>)
 
 # Inside a project without a build type nothing would be optimised, and nobody have asked for that. Where the project has a -O
@@ -31,7 +31,7 @@ if(ONSET_BUILD_TESTS AND BUILD_SHARED_LIBS)
   target_compile_features(onset_inside PUBLIC cxx_std_17)
   target_compile_definitions(onset_inside PRIVATE $<TARGET_PROPERTY:onset,COMPILE_DEFINITIONS>)
   target_compile_options(onset_inside PRIVATE $<TARGET_PROPERTY:onset,COMPILE_OPTIONS>)
-  target_link_libraries(onset_inside PUBLIC Eigen3::Eigen PRIVATE TBB::tbb Boost::boost)
+  target_link_libraries(onset_inside PUBLIC Eigen3::Eigen PRIVATE ${onset_threads} Boost::boost)
 else()
   add_library(onset_inside ALIAS onset)
 endif()

@@ -2,7 +2,7 @@
 # with a line that says so, where it is not.
 
 # What each needs beyond the library: "<arguments of find_package>=<Debian package>", or a header for find_path into a variable.
-set(onset_tests_need Catch2=catch2 "nlohmann_json=nlohmann-json3-dev" fcl=libfcl-dev PkgConfig=pkg-config Python3=python3
+set(onset_tests_need Catch2=catch2 TBB=libtbb-dev "nlohmann_json=nlohmann-json3-dev" fcl=libfcl-dev PkgConfig=pkg-config Python3=python3
                      Git=git)
 set(onset_apps_need CLI11=libcli11-dev "nlohmann_json 3.10=nlohmann-json3-dev"
                     "CGAL_INCLUDE_DIR CGAL/box_intersection_d.h=libcgal-dev")

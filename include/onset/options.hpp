@@ -94,8 +94,9 @@ struct Options {
   // same LineSearch.
   std::function<bool(double)> progress;
 
-  // 0: the call runs in the caller's oneTBB task arena, as it is. n >= 1: in one of its own, of n threads at
-  // most. The answer is the same bytes.
+  // 0: the call runs in the caller's oneTBB task arena, as it is; where onset is built without TBB, in as
+  // many threads as the hardware has. n >= 1: in an arena of its own, of n threads at most. The answer is the
+  // same bytes.
   int threads = 0;
 
   // With a separation > 0, contacts after the start are marked certain at level exact only, where a point of

@@ -100,6 +100,20 @@ class TopLevel(ConfigureTest):
             said = self.configure("-UCMAKE_DISABLE_FIND_PACKAGE_*", *without(name), status=1)
             self.assertIn(f"apt-get install {package}", said)
 
+    def test_tbb_can_be_done_without(self):
+        """With threads of onset's own neither the build nor who uses what it installs looks for TBB."""
+        for static, needed in ((True, "Threads"), (False, "")):
+            self.configure("-DONSET_THREADS=STD", f"-DBUILD_SHARED_LIBS={'OFF' if static else 'ON'}",
+                           *without("TBB", *FOR_TESTS, *FOR_APPS))
+            self.assertIn(f'set(onset_needs "{needed}")', (self.build / "onsetConfig.cmake").read_text())
+            pc = (self.build / "onset.pc").read_text()
+            self.assertIn("Requires: eigen3\n", pc)
+            self.assertEqual("-pthread" in pc, static)
+        self.configure("-DONSET_THREADS=TBB", "-DBUILD_SHARED_LIBS=OFF", "-UCMAKE_DISABLE_FIND_PACKAGE_TBB")
+        self.assertIn('set(onset_needs "TBB")', (self.build / "onsetConfig.cmake").read_text())
+        self.assertIn("Requires: eigen3, tbb\n", (self.build / "onset.pc").read_text())
+        self.assertIn("can be TBB or STD", self.configure("-DONSET_THREADS=OTHER", status=1))
+
     def test_it_is_optimised_unless_asked_otherwise(self):
         self.configure(*without(*FOR_TESTS, *FOR_APPS))
         self.assertEqual(self.cached()["CMAKE_BUILD_TYPE"], "Release")
@@ -135,8 +149,8 @@ class TopLevel(ConfigureTest):
     def test_every_option_is_documented(self):
         self.configure(*without(*FOR_TESTS, *FOR_APPS))
         document = (SOURCE / "docs/building.md").read_text()
-        options = [name for name in self.cached() if name.startswith(("ONSET_BUILD_", "ONSET_INSTALL", "BUILD_SHARED"))]
-        self.assertGreaterEqual(len(options), 4)
+        options = [name for name in self.cached() if name.startswith(("ONSET_BUILD_", "ONSET_INSTALL", "ONSET_THREADS", "BUILD_SHARED"))]
+        self.assertGreaterEqual(len(options), 5)
         for name in options:
             self.assertIn(f"| `{name}` |", document)
 

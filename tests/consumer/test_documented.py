@@ -90,7 +90,11 @@ class Documented(OutsideTest):
                  CXXFLAGS="-O3 -march=native -ffast-math")
 
     def test_fetch_content(self):
-        self.use("FetchContent", "-O1")
+        """Where there is no TBB, with threads of onset's own."""
+        self.use("FetchContent", "-O1", 'set(ONSET_THREADS STD CACHE STRING "")\nset(CMAKE_DISABLE_FIND_PACKAGE_TBB ON)')
+        cache = (self.project / "build/CMakeCache.txt").read_text()
+        self.assertIn("ONSET_THREADS:STRING=STD", cache)
+        self.assertNotIn("TBB_DIR", cache)
         self.assertTrue((self.project / "build/_deps/onset-src/LICENSE").exists())
 
 

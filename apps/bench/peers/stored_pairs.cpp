@@ -1,6 +1,6 @@
 #include "bench/peers/stored_pairs.hpp"
 
-#include <tbb/task_arena.h>
+#include <mutex>
 
 namespace app {
 
@@ -14,11 +14,21 @@ StoredPairs::~StoredPairs() = default;
 onset::PairCounts StoredPairs::find(const onset::Positions& x_t0, const onset::Positions& x_t1, int threads) {
   mesh_->release_memory();
   lists_.resize(std::size_t(threads));
-  for (Lists& lists : lists_) lists.vertex_face.clear(), lists.edge_edge.clear();
+  std::mutex mutex;
+  std::vector<Lists*> idle;
+  for (Lists& lists : lists_) {
+    lists.vertex_face.clear(), lists.edge_edge.clear();
+    idle.push_back(&lists);
+  }
   const auto store = [&](onset::PairKind kind, const std::array<int, 2>* pairs, std::size_t count) {
-    Lists& mine = lists_[std::size_t(tbb::this_task_arena::current_thread_index())];
-    auto& list = kind == onset::PairKind::vertex_face ? mine.vertex_face : mine.edge_edge;
+    std::unique_lock<std::mutex> lock(mutex);
+    Lists* const mine = idle.back();
+    idle.pop_back();
+    lock.unlock();
+    auto& list = kind == onset::PairKind::vertex_face ? mine->vertex_face : mine->edge_edge;
     list.insert(list.end(), pairs, pairs + count);
+    lock.lock();
+    idle.push_back(mine);
   };
   onset::Options options;
   options.threads = threads;

@@ -15,11 +15,11 @@ class StoredPairs {
   StoredPairs(const StoredPairs&) = delete;
 
   // Finds and stores every candidate: motion, boxes, tree, pairs, nothing reused but the memory of the lists.
-  // In at most `threads` threads, each with lists of its own.
+  // In at most `threads` threads, each batch of pairs in lists that no other thread has at the time.
   onset::PairCounts find(const onset::Positions& x_t0, const onset::Positions& x_t1, int threads);
 
  private:
-  struct Lists;  // of one thread, by kind
+  struct Lists;  // by kind
   const onset::Mesh* mesh_;
   std::vector<Lists> lists_;
 };

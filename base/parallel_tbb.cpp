@@ -1,0 +1,76 @@
+// The back end that shares a host's threads: oneTBB.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <list>
+#include <map>
+#include <mutex>
+
+#include "base/parallel.hpp"
+
+namespace onset {
+namespace {
+
+using Arenas = std::list<tbb::task_arena>;
+
+struct IdleArenas {
+  std::mutex mutex;
+  std::map<int, Arenas> of;  // so many threads
+};
+
+// Never destroyed: calls may be made until the process ends.
+IdleArenas& idle_arenas() {
+  static IdleArenas& all = *new IdleArenas;
+  return all;
+}
+
+// An arena for one call, out of those that earlier calls with as many threads gave back. This TBB frees no
+// arena that ran a loop: one a call would leak.
+class LentArena {
+ public:
+  explicit LentArena(int threads) {
+    const std::lock_guard<std::mutex> lock(idle_arenas().mutex);
+    home_ = &idle_arenas().of[threads];
+    if (home_->empty())
+      mine_.emplace_back(threads);
+    else
+      mine_.splice(mine_.begin(), *home_, home_->begin());
+  }
+  ~LentArena() {  // a splice allocates nothing, so it cannot fail
+    const std::lock_guard<std::mutex> lock(idle_arenas().mutex);
+    home_->splice(home_->begin(), mine_);
+  }
+  LentArena(const LentArena&) = delete;
+  LentArena& operator=(const LentArena&) = delete;
+  tbb::task_arena* operator->() { return &mine_.front(); }
+
+ private:
+  Arenas mine_;  // one
+  Arenas* home_;
+};
+
+}  // namespace
+
+namespace backend {
+
+void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> f) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                    [=](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
+}
+
+void run_in_arena(int threads, FunctionRef<> f) {
+  const auto alone = [=] { tbb::this_task_arena::isolate([=] { f(); }); };
+  if (threads == 0) {
+    alone();
+  } else {
+    LentArena arena(threads);
+    arena->execute(alone);
+  }
+}
+
+}  // namespace backend
+
+int current_threads() { return tbb::this_task_arena::max_concurrency(); }
+
+}  // namespace onset
