@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/float_environment.hpp"
 #include "base/parallel.hpp"
 #include "onset/candidates.hpp"
 #include "scene/motion/storing.hpp"
@@ -97,5 +98,7 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
   });
   return r;
 }
+
+void in_default_float_environment(const std::function<void()>& work) { in_float_environment(work); }
 
 }  // namespace onset

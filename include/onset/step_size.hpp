@@ -1,6 +1,7 @@
 // How far can a step go: the calls that give its size.
 #pragma once
 
+#include <functional>
 #include <onset/candidates.hpp>
 #include <onset/export.hpp>
 #include <onset/mesh.hpp>
@@ -81,5 +82,20 @@ ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Can
 // Parameters, errors, thread safety: as compute_collision_free_stepsize.
 ONSET_API bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                       const Options& options = {});
+
+// Runs `work` on this thread in the default floating-point environment: it rounds to nearest, keeps subnormal
+// numbers and traps nothing.
+//
+// Guarantee: afterwards, and where `work` throws, the thread has the environment and the flags that it had
+// before. All calls of the library compute in this environment, whatever the host has set. Hosts that have
+// set another one use it for positions: what is promised of stored positions (StepResult) is promised of
+// those that are stored in it, and a direction is the same bytes as elsewhere where it is computed in it.
+// Threads that `work` hands tasks to keep their own.
+// Throws std::bad_function_call where `work` is empty, and what it throws.
+// Safe to call concurrently, and from inside `work`.
+//
+// Example:
+//   onset::in_default_float_environment([&] { x = x_t0 + step * (x_t1 - x_t0); });
+ONSET_API void in_default_float_environment(const std::function<void()>& work);
 
 }  // namespace onset

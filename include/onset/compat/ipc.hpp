@@ -48,7 +48,8 @@ inline const TightInclusionCCD DEFAULT_NARROW_PHASE_CCD{};
 // A surface, and how it lies in a full (volume) mesh. Vertices are rows.
 //
 // The calls below take surface positions (#V x 3, model length), as vertices() returns them. Const calls are
-// safe from several threads where can_collide is.
+// safe from several threads where can_collide is. Maps between the two are the host's arithmetic, in whatever
+// floating-point environment it has set.
 class CollisionMesh {
  public:
   // rest_positions: #V x 3, model length.
@@ -194,6 +195,15 @@ class CollisionMesh {
   onset::Mesh mesh_;
 };
 
+// f() in the library's floating-point environment: what these calls compute themselves is the same bytes
+// whatever the host has set.
+template <class F>
+auto in_environment(const F& f) {
+  decltype(f()) result{};
+  in_default_float_environment([&] { result = f(); });
+  return result;
+}
+
 // Makes Options of what ipc-toolkit passes.
 inline Options options_of(double min_distance, const NarrowPhaseCCD& ccd) {
   Options o;
@@ -235,7 +245,8 @@ class Candidates {
              const Eigen::MatrixXd& vertices_t1, double inflation_radius = 0, const BroadPhase* = nullptr) {
     clear();
     Options o;
-    o.min_separation = 2 * inflation_radius;  // each box is widened by half of it
+    // Each box is widened by half of it.
+    o.min_separation = in_environment([&] { return 2 * inflation_radius; });
     const onset::Candidates found = compute_candidates(mesh.onset_mesh(), vertices_t0, vertices_t1, o);
     if (found.outcome != Outcome::free)
       throw std::runtime_error(std::string("Candidates::build: ") + to_string(found.outcome));
@@ -276,9 +287,9 @@ class Candidates {
   double compute_collision_free_stepsize(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
                                          const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                          const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
+    const double gap_share = in_environment([&] { return 1 - ccd.conservative_rescaling; });
     return onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(mesh), vertices_t0, vertices_t1,
-                                                  options_of(min_distance, ccd),
-                                                  1 - ccd.conservative_rescaling)
+                                                  options_of(min_distance, ccd), gap_share)
         .step;
   }
   bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
@@ -325,17 +336,19 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
                                               const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                               const BroadPhase* broad_phase = nullptr,
                                               const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) {
-  if (!vertices_t0.allFinite() || !vertices_t1.allFinite()) return 0;
-  if (mesh.can_collide) {
-    Candidates candidates;
-    candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
-    return candidates.compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1, min_distance, ccd);
-  }
-  LineSearchOptions options = options_of(min_distance, ccd);
-  options.gap_share = 1 - ccd.conservative_rescaling;
-  return LineSearch(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0), options)
-      .largest_step()
-      .step;
+  return in_environment([&]() -> double {
+    if (!vertices_t0.allFinite() || !vertices_t1.allFinite()) return 0;
+    if (mesh.can_collide) {
+      Candidates candidates;
+      candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
+      return candidates.compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1, min_distance, ccd);
+    }
+    LineSearchOptions options = options_of(min_distance, ccd);
+    options.gap_share = 1 - ccd.conservative_rescaling;
+    return LineSearch(mesh.onset_mesh(), vertices_t0, Eigen::MatrixXd(vertices_t1 - vertices_t0), options)
+        .largest_step()
+        .step;
+  });
 }
 
 // Tells, exactly, whether an edge and a face without a common vertex have a common point; a touch is one.
@@ -363,13 +376,15 @@ inline bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::Matri
                                    const Eigen::MatrixXd& vertices_t1, double min_distance = 0,
                                    const BroadPhase* broad_phase = nullptr,
                                    const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) {
-  if (!mesh.can_collide)
-    return onset::is_step_collision_free(mesh.onset_mesh(), vertices_t0, vertices_t1,
-                                         options_of(min_distance, ccd));
-  if (!vertices_t0.allFinite() || !vertices_t1.allFinite()) return false;
-  Candidates candidates;
-  candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
-  return candidates.is_step_collision_free(mesh, vertices_t0, vertices_t1, min_distance, ccd);
+  return in_environment([&]() -> bool {
+    if (!mesh.can_collide)
+      return onset::is_step_collision_free(mesh.onset_mesh(), vertices_t0, vertices_t1,
+                                           options_of(min_distance, ccd));
+    if (!vertices_t0.allFinite() || !vertices_t1.allFinite()) return false;
+    Candidates candidates;
+    candidates.build(mesh, vertices_t0, vertices_t1, min_distance / 2, broad_phase);
+    return candidates.is_step_collision_free(mesh, vertices_t0, vertices_t1, min_distance, ccd);
+  });
 }
 
 }  // namespace onset::ipc

@@ -136,13 +136,18 @@ void ask_queries(const Mesh&, const Subject& s, const Options& options, Answer& 
   }
 }
 
+// A third is another double in each mode of rounding.
+void ask_environment(const Mesh&, const Subject& s, const Options&, Answer& a) {
+  in_default_float_environment([&] { a.add(s.d_hat / 3); });
+}
+
 }  // namespace
 
-Subject::Subject(std::string name, Scene scene, CollisionRules rules)
+Subject::Subject(std::string name, Scene scene, CollisionRules rules, double d_hat_share)
     : name(std::move(name)), scene(std::move(scene)), rules(std::move(rules)) {
   const Scene& at = this->scene;
   dx = at.x_t1 - at.x_t0;
-  d_hat = 0.02 * (at.x_t0.maxCoeff() - at.x_t0.minCoeff()) + 1e-12;
+  d_hat = d_hat_share * (at.x_t0.maxCoeff() - at.x_t0.minCoeff()) + 1e-12;
   const Mesh clean = mesh();
   set = construct_active_set(clean, at.x_t0, at.x_t1);
   close = close_pairs(clean, at.x_t0, d_hat);
@@ -226,6 +231,7 @@ const std::vector<Call>& every_call() {
       {"has_intersections", true, ask_has_intersections},
       {"check, duplicate_vertices", true, ask_check},
       {"vertex_face_ccd, edge_edge_ccd", false, ask_queries},
+      {"in_default_float_environment", false, ask_environment},
       {"Mesh", false, ask_mesh},
       {"words and counts", false, ask_words},
       {"adapter: surfaces", false, ask_surfaces},
