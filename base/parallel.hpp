@@ -30,11 +30,14 @@ void parallel_ranges(std::size_t count, std::size_t grain, F&& f) {
 }
 
 // f() in the caller's arena (threads == 0) or in one of at most `threads`, in the floating-point environment
-// of all promises. A thread that waits inside takes on no other work of the caller's arena.
+// of all promises. A thread that waits inside takes on no other work of the caller's arena. An arena switches
+// to the environment that it was made in, and back without the flags: it is not to see that of the host.
 template <class F>
 void in_arena(int threads, F&& f) {
-  const auto alone = [&] { in_float_environment(f); };
-  backend::run_in_arena(threads, FunctionRef<>(alone));
+  in_float_environment([&] {
+    const auto alone = [&] { in_float_environment(f); };
+    backend::run_in_arena(threads, FunctionRef<>(alone));
+  });
 }
 
 // Returns how many threads the current arena may use.

@@ -123,7 +123,7 @@ PairCounts LineSearch::candidates() const { return impl().pairs.counts(); }
 PairCounts LineSearch::close_candidates() const { return impl().near.counts(); }
 
 LineSearchStep LineSearch::largest_step(double upper) const {
-  check_step("upper", upper);
+  in_float_environment(check_step, "upper", upper);
   const Impl& h = impl();
   LineSearchStep r;
   static_cast<StepResult&>(r) = h.start;
@@ -150,7 +150,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
 }
 
 ClosePairs LineSearch::close_pairs(double step) const {
-  check_step("step", step);
+  in_float_environment(check_step, "step", step);
   const Impl& h = impl();
   if (h.options.d_hat == 0)
     throw std::invalid_argument("close_pairs of a line search that was given no d_hat");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/float_environment.hpp"
 #include "base/text_stream.hpp"
 #include "scene/motion/extents.hpp"
 
@@ -24,9 +25,7 @@ void check_enum(const char* name, E value, E last) {
   if (int(value) < 0 || value > last) reject(name, double(int(value)), "one of the enumerators");
 }
 
-}  // namespace
-
-void check(const Options& o) {
+void check_all(const Options& o) {
   if (o.tolerance && !(*o.tolerance > 0 && std::isfinite(*o.tolerance)))
     reject("tolerance", *o.tolerance, "a finite number > 0");
   if (!(o.relative_tolerance > 0 && std::isfinite(o.relative_tolerance)))
@@ -46,9 +45,15 @@ void check(const Options& o) {
   check_enum("exactness", o.exactness, Exactness::exact);
 }
 
-void check_gap_share(double gap_share) {
+void check_share(double gap_share) {
   if (!(gap_share >= 0 && gap_share < 1)) reject("gap_share", gap_share, "in [0, 1)");
 }
+
+}  // namespace
+
+// A comparison with NaN is an invalid operation, which the host may trap.
+void check(const Options& options) { in_float_environment(check_all, options); }
+void check_gap_share(double gap_share) { in_float_environment(check_share, gap_share); }
 
 double largest_separation(const MeshData& mesh, const Options& options) {
   if (mesh.thickness.empty()) return options.min_separation;

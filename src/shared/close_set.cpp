@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/float_environment.hpp"
 #include "base/text_stream.hpp"
 #include "narrowphase/distance/closest_points.hpp"
 #include "narrowphase/narrow_phase.hpp"
@@ -28,15 +29,17 @@ double separation_of(const CloseInput& in, const Pair& pair) {
   return ratio * (in.options.min_separation + thickness) * (1 + 0x1p-50);
 }
 
-}  // namespace
-
-void check_d_hat(double d_hat, bool zero_allowed) {
+void check_reach(double d_hat, bool zero_allowed) {
   if ((zero_allowed ? d_hat >= 0 : d_hat > 0) && d_hat <= kMaxCoordinate) return;
   TextStream s;
   s << "d_hat is " << d_hat << "; it must be a number " << (zero_allowed ? ">= 0" : "> 0")
     << ", at most 2^1020";
   throw std::invalid_argument(s.str());
 }
+
+}  // namespace
+
+void check_d_hat(double d_hat, bool zero_allowed) { in_float_environment(check_reach, d_hat, zero_allowed); }
 
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding) {
   const double ratio = norm_ratio(options);  // the thickness is added where a pair is looked at

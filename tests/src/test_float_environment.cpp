@@ -1,15 +1,22 @@
 // Whatever floating-point environment the host has set, in the calling thread and in TBB's workers, answers
 // are those of a clean process, and the host finds its environment and flags as they were.
 #if defined(__SSE2__)
-#include <fenv.h>
 #include <immintrin.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
-#include <atomic>
+#include <cmath>
+#include <functional>
+#include <iterator>
 #include <onset/onset.hpp>
+#include <stdexcept>
 
 #include "tests/catch.hpp"
-#include "tests/src/support/one_pair.hpp"
+#include "tests/fuzz.hpp"
+#include "tests/scenes/data.hpp"
+#include "tests/scenes/frame_file.hpp"
+#include "tests/src/support/every_call.hpp"
 #include "tests/src/support/scene_set.hpp"
 
 using namespace onset;
@@ -17,14 +24,22 @@ using namespace onset::tests;
 
 namespace {
 
+// Four threads even where there are fewer cores.
+const tbb::global_control four_workers(tbb::global_control::max_allowed_parallelism, 4);
+
 constexpr unsigned kClean = 0x1f80;
 struct Mode {
   const char* name;
   unsigned mxcsr;
 };
-constexpr Mode kModes[] = {{"downward", 0x3f80},      {"upward", 0x5f80},
-                           {"toward zero", 0x7f80},   {"subnormal numbers are zero", 0x1f80 | 0x8040},
-                           {"every trap on", 0x0000}, {"flags raised", 0x1f80 | 0x3f}};
+constexpr Mode kModes[] = {{"downward", 0x3f80},
+                           {"upward", 0x5f80},
+                           {"toward zero", 0x7f80},
+                           {"subnormal numbers are zero", 0x1f80 | 0x8040},
+                           {"every trap on", 0x0000},
+                           {"flags raised", 0x1f80 | 0x3f},
+                           {"downward, subnormal numbers are zero, every trap on", 0xa040}};
+constexpr int kNumModes = int(std::size(kModes));
 
 // While it lives: in this thread, and in as many workers as can be had.
 struct Host {
@@ -38,99 +53,92 @@ struct Host {
   unsigned mxcsr_;
 };
 
-struct Answers {
-  ActiveSet set, exact;
-  StepResult step;
-  LineSearchStep searched;
-  ClosePairs close, close_on_the_way;
-  Candidates candidates;
-  std::vector<double> safe;
-  double safe_length = 0;
-  StepResult cfl;
-  Constraints constraints;
-  Intersections crossings;
-  StartReport report;
-  bool free = false;
-};
-
-Answers ask(const Mesh& mesh, const Eigen::MatrixXd& x_t0, const Eigen::MatrixXd& x_t1,
-            const Eigen::MatrixXd& dx, double d_hat, const Options& options) {
-  Answers a;
-  a.set = construct_active_set(mesh, x_t0, x_t1, options);
-  Options exactly = options;
-  exactly.exactness = Exactness::exact;
-  a.exact = construct_active_set(mesh, x_t0, x_t1, exactly);
-  a.step = compute_collision_free_stepsize(mesh, x_t0, x_t1, options);
-  LineSearchOptions search = options;
-  search.d_hat = d_hat;
-  const LineSearch line(mesh, x_t0, dx, search);
-  a.searched = line.largest_step();
-  a.close_on_the_way = line.close_pairs(0.5);
-  a.close = close_pairs(mesh, x_t0, d_hat, options);
-  a.candidates = compute_candidates(mesh, x_t0, x_t1, options);
-  a.safe = safe_distances(mesh, x_t0, a.close);
-  a.safe_length = safe_step(a.safe, dx);
-  a.cfl = compute_cfl_stepsize(mesh, x_t0, x_t1, a.close, options);
-  a.constraints = assemble_constraints(a.set, 1e-3);
-  a.crossings = intersections(mesh, x_t0, options);
-  a.report = check(mesh, x_t0, options);
-  a.free = is_step_collision_free(mesh, x_t0, x_t1, options);
-  return a;
-}
-
-bool same(const ClosePairs& a, const ClosePairs& b) {
-  return a.outcome == b.outcome && a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](const ClosePair& p, const ClosePair& q) {
-           return p.kind == q.kind && p.a == q.a && p.b == q.b && p.weights == q.weights &&
-                  p.distance == q.distance && p.gap == q.gap && p.separation == q.separation;
-         });
-}
-
-void check_same(const Answers& a, const Answers& b) {
-  CHECK(same_bytes(a.set, b.set));
-  CHECK(same_bytes(a.exact, b.exact));
-  CHECK(same_bytes(a.step, b.step));
-  CHECK(same_bytes(static_cast<const StepResult&>(a.searched), b.searched));
-  CHECK(a.searched.gap_share == b.searched.gap_share);
-  CHECK(same(a.close, b.close));
-  CHECK(same(a.close_on_the_way, b.close_on_the_way));
-  CHECK((a.candidates.vertex_face == b.candidates.vertex_face &&
-         a.candidates.edge_edge == b.candidates.edge_edge));
-  CHECK((a.safe == b.safe && a.safe_length == b.safe_length));
-  CHECK(same_bytes(a.cfl, b.cfl));
-  CHECK(a.constraints.value == b.constraints.value);
-  CHECK(a.crossings.size() == b.crossings.size());
-  CHECK((a.report.touching.size() == b.report.touching.size() &&
-         a.report.copied_vertices == b.report.copied_vertices));
-  CHECK(a.free == b.free);
+// Whether the call, on a new mesh, gives this answer, and leaves the environment alone.
+void check_in(const Mode& mode, const Call& call, const Subject& subject, const Options& options,
+              const Answer& clean) {
+  Answer found;
+  bool untouched = false;
+  {
+    const Host host(mode.mxcsr);
+    found = call(subject.mesh(), subject, options);
+    untouched = host.untouched();
+  }
+  CAPTURE(subject.name, call.name, options.threads, mode.name);
+  CHECK(untouched);
+  CHECK(found == clean);
 }
 
 }  // namespace
 
 TEST_CASE("no floating-point environment of the host changes a byte of any call", "[determinism]") {
-  for (const auto& named : some_scenes()) {
-    const auto& scene = named.scene;
-    const Mesh mesh(scene.x_t0.rows(), scene.faces);
-    const Eigen::MatrixXd dx = scene.x_t1 - scene.x_t0;
-    const double d_hat = 0.02 * (scene.x_t0.maxCoeff() - scene.x_t0.minCoeff()) + 1e-12;
-    for (const int threads : {0, 1, 2}) {
-      Options options;
-      options.threads = threads;
-      const Answers clean = ask(mesh, scene.x_t0, scene.x_t1, dx, d_hat, options);
-      for (const Mode& mode : kModes) {
-        CAPTURE(named.name, threads, mode.name);
-        const Mesh fresh(scene.x_t0.rows(), scene.faces);
-        Answers found;
-        bool untouched = false;
-        {
-          const Host host(mode.mxcsr);
-          found = ask(fresh, scene.x_t0, scene.x_t1, dx, d_hat, options);
-          untouched = host.untouched();
+  std::vector<Subject> subjects = small_subjects();
+  if (fuzz(4) >= 4)
+    for (const NamedScene& named : some_scenes()) subjects.emplace_back(named.name, named.scene);
+  for (const Subject& subject : subjects)
+    for (const Call& call : every_call()) {
+      const Answer clean = call(subject.mesh(), subject, {});
+      for (const int threads : {0, 1, 2})
+        for (const Mode& mode : kModes) {
+          Options options;
+          options.threads = threads;
+          check_in(mode, call, subject, options, clean);
         }
-        CHECK(untouched);
-        check_same(clean, found);
+    }
+}
+
+// In a run of the tests each call has one mode with each number of threads; ONSET_FUZZ=3 asks for all of
+// them.
+TEST_CASE("recorded steps mind no floating-point environment either", "[determinism][data]") {
+  const std::string folder = scenes::data_folder("recorded steps mind no floating-point environment either");
+  if (folder.empty()) return;
+  const bool all = fuzz(1) >= 3;
+  int asked = 0, turn = 0;
+  for (const scenes::RecordedStep& step : scenes::recorded_steps()) {
+    const scenes::Recording recording = scenes::read_recording(folder, step);
+    const Subject subject(step.name, {recording.t0.x, recording.t1.x, recording.t0.faces}, {}, 1e-4);
+    for (const Call& call : every_call()) {
+      const Answer clean = call(subject.mesh(), subject, {});
+      ++turn;
+      for (int i = 0; i < 3 * kNumModes; ++i) {
+        if (!all && i != turn % (3 * kNumModes)) continue;
+        Options options;
+        options.threads = i % 3;
+        check_in(kModes[i % kNumModes], call, subject, options, clean);
+        ++asked;
       }
     }
+  }
+  std::printf("%d calls on recorded steps, each in another environment\n", asked);
+}
+
+// An arena keeps the environment of whoever made it, and so do its workers.
+TEST_CASE("arenas that were made in one environment are used in another", "[determinism]") {
+  const Subject subject = std::move(small_subjects().back());
+  std::vector<Answer> clean;
+  for (const Call& call : every_call()) clean.push_back(call(subject.mesh(), subject, {}));
+  int threads = 20;  // of which no other test makes arenas
+  for (const Mode& made_in : kModes) {
+    Options options;
+    options.threads = ++threads;
+    tbb::task_arena own(4);
+    {
+      const Host host(made_in.mxcsr);
+      const Mesh mesh = subject.mesh();
+      own.execute([&] { every_call().front()(mesh, subject, {}); });
+      every_call().front()(mesh, subject, options);
+    }
+    for (const Mode& mode : kModes)
+      for (std::size_t i = 0; i < every_call().size(); ++i) {
+        CAPTURE(made_in.name);
+        check_in(mode, every_call()[i], subject, options, clean[i]);
+        Answer in_own;
+        {
+          const Host host(mode.mxcsr);
+          const Mesh mesh = subject.mesh();
+          own.execute([&] { in_own = every_call()[i](mesh, subject, {}); });
+        }
+        CHECK(in_own == clean[i]);
+      }
   }
 }
 
@@ -155,8 +163,92 @@ TEST_CASE("single queries mind no floating-point environment either", "[determin
         untouched = host.untouched();
       }
       CHECK(untouched);
-      CHECK((found.toi == clean.toi && found.normal == clean.normal && found.weights == clean.weights));
+      CHECK(Answer().add(found) == Answer().add(clean));
     }
   }
+}
+
+TEST_CASE("a host finds its environment again where its own work throws", "[determinism]") {
+  const Host host(0x2000);  // downward, every trap on
+  double third = 0;
+  bool threw = false;
+  try {
+    in_default_float_environment([&] {
+      third = std::sqrt(1.0 / 9);
+      throw std::runtime_error("enough");
+    });
+  } catch (const std::runtime_error&) {
+    threw = true;
+  }
+  const bool untouched = host.untouched();
+  Host::set(kClean);
+  CHECK((threw && untouched && third == 1.0 / 3));
+}
+
+// A comparison with NaN is an invalid operation.
+TEST_CASE("what is not a number is refused, not trapped", "[determinism]") {
+  const Subject s = std::move(small_subjects().front());
+  const Mesh mesh = s.mesh();
+  const std::vector<double> nans(std::size_t(mesh.num_vertices()), NAN);
+  Eigen::MatrixXd unusable = s.scene.x_t1;
+  unusable(1, 1) = NAN;
+  Mesh changed = mesh;
+  CollisionRules thick;
+  thick.thickness = nans;
+  ClosePairs close = s.close;
+  close.d_hat = NAN;
+  const LineSearch search(mesh, s.scene.x_t0, s.dx);
+  LineSearchOptions share, reach;
+  share.gap_share = reach.d_hat = NAN;
+  const auto with = [&](auto change) {
+    Options o;
+    change(o);
+    return [&, o] { compute_collision_free_stepsize(mesh, s.scene.x_t0, s.scene.x_t1, o); };
+  };
+  const std::vector<std::pair<const char*, std::function<void()>>> refused{
+      {"tolerance", with([](Options& o) { o.tolerance = NAN; })},
+      {"relative_tolerance", with([](Options& o) { o.relative_tolerance = NAN; })},
+      {"min_separation", with([](Options& o) { o.min_separation = NAN; })},
+      {"window", with([](Options& o) { o.window = NAN; })},
+      {"time_limit", with([](Options& o) { o.time_limit = NAN; })},
+      {"d_hat of close pairs", [&] { close_pairs(mesh, s.scene.x_t0, NAN); }},
+      {"d_hat of a line search", [&] { LineSearch(mesh, s.scene.x_t0, s.dx, reach); }},
+      {"gap_share of a line search", [&] { LineSearch(mesh, s.scene.x_t0, s.dx, share); }},
+      {"upper", [&] { search.largest_step(NAN); }},
+      {"step", [&] { search.close_pairs(NAN); }},
+      {"gap_share of candidates",
+       [&] { compute_collision_free_stepsize(mesh, s.candidates, s.scene.x_t0, s.scene.x_t1, {}, NAN); }},
+      {"gap_share of close pairs",
+       [&] { compute_cfl_stepsize(mesh, s.scene.x_t0, s.scene.x_t1, s.close, {}, NAN); }},
+      {"d_hat of the close pairs", [&] { safe_distances(mesh, s.scene.x_t0, close); }},
+      {"eta", [&] { assemble_constraints(s.set, NAN); }},
+      {"thickness", [&] { changed.set_rules(thick); }},
+      {"a row of copies", [&] { duplicate_vertices(unusable); }}};
+  for (const auto& [name, ask] : refused) {
+    CAPTURE(name);
+    bool threw = false, untouched = false;
+    {
+      const Host host(0x0000);
+      try {
+        ask();
+      } catch (const std::invalid_argument&) {
+        threw = true;
+      }
+      untouched = host.untouched();
+    }
+    CHECK((threw && untouched));
+  }
+  Outcome outcomes[4];
+  double step = 1;
+  {
+    const Host host(0x0000);
+    outcomes[0] = compute_collision_free_stepsize(mesh, s.scene.x_t0, unusable).outcome;
+    outcomes[1] = construct_active_set(mesh, s.scene.x_t0, unusable).outcome;
+    outcomes[2] = close_pairs(mesh, unusable, s.d_hat).outcome;
+    outcomes[3] = check(mesh, unusable).outcome;
+    step = safe_step(nans, s.dx);
+  }
+  for (const Outcome outcome : outcomes) CHECK(outcome == Outcome::non_finite);
+  CHECK(step == 1);
 }
 #endif

@@ -12,7 +12,9 @@ namespace onset::tests {
 
 // A scene, and what calls that go on from the answers of others are given.
 struct Subject {
-  explicit Subject(std::string name, scenes::Scene scene, CollisionRules rules = {});
+  // d_hat is this share of the size of the scene.
+  explicit Subject(std::string name, scenes::Scene scene, CollisionRules rules = {},
+                   double d_hat_share = 0.02);
   // A new one each time, that no call has left anything on.
   Mesh mesh() const { return Mesh(scene.x_t0, scene.faces, rules); }
 
