@@ -31,9 +31,9 @@ bool fails() {
 void* allocate(std::size_t size, std::size_t alignment) {
   if (fails()) return nullptr;
   if (size == 0) size = 1;
-  void* const block =
-      alignment == 0 ? std::malloc(size)
-                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  void* const block = alignment == 0
+                          ? std::malloc(size)
+                          : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (block != nullptr) ++blocks;
   return block;
 }

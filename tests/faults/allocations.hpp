@@ -11,8 +11,8 @@ std::int64_t live_blocks();
 // Which allocations fail:
 // - once: one.
 // - lasting: all from that one on.
-// - elsewhere: one of those that other threads ask for, which alone are counted; this thread waits a little at
-//   each of its own, so that others get some of the work.
+// - elsewhere: one of those that other threads ask for, which alone are counted; this thread waits a little
+//   at each of its own, so that others get some of the work.
 enum class Shortage { once, lasting, elsewhere };
 
 // While one lives, the k-th allocation of any thread from now on (k = 1 is the next) throws std::bad_alloc;
