@@ -62,6 +62,10 @@ KernelResult PairDecision::push_on(KernelResult r) const {
   const double wanted = (r.separation + 0.5 * r.delta) * (1 + 0x1p-49);
   bool patient = false;
   for (int rounds = 0; rounds < 64 && r.verdict == Verdict::stalled; ++rounds) {
+    if (r.checks >= pairs_.max_checks) {
+      r.verdict = Verdict::max_checks;
+      return r;
+    }
     const double t = certify_interval(corners(), r.t, wanted, pairs_.maximum_norm);
     ++r.checks;
     if (t >= 1) {
@@ -101,8 +105,10 @@ KernelResult PairDecision::carry_on(const KernelResult& checked, bool& searched)
   KernelResult found = checked;
   if (!in_.inclusion_only() && found.verdict == Verdict::stalled) found = push_on(found);
   stats_.checks += found.checks - checked.checks;
-  searched =
-      found.verdict == Verdict::stalled || (found.verdict == Verdict::max_checks && in_.inclusion_only());
+  const bool spent = found.checks >= in_.options.max_checks;
+  if (spent && found.verdict == Verdict::stalled) found.verdict = Verdict::max_checks;
+  searched = !spent && (found.verdict == Verdict::stalled ||
+                        (found.verdict == Verdict::max_checks && in_.inclusion_only()));
   return searched ? search(found) : found;
 }
 

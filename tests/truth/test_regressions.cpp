@@ -109,3 +109,50 @@ TEST_CASE("sliding and coplanar pairs are decided within a few thousand checks",
   CAPTURE(queries, budget);
   CHECK(budget <= queries / 20);
 }
+
+// Where a pair had stalled with its last check, pushing on or the inclusion root finder made one more.
+TEST_CASE("a pair that stalls with its last check makes no further one", "[unit]") {
+  struct Case {
+    Query query;
+    double relative_tolerance, min_separation;
+    int max_checks;
+    Norm norm;
+  };
+  const Case cases[] = {{{PairKind::vertex_face,
+                          {{{0x1.dfa03718p+42, 0x1.ad2384p+36, -0x1.f0958fap+41},
+                            {0x1.dfa0327p+42, 0x1.ad4ef2p+36, -0x1.f0943c8p+41},
+                            {0x1.dfa4126ffffffp+42, 0x1.ad1ce2p+36, -0x1.f0ac878p+41},
+                            {0x1.df9ef43p+42, 0x1.acff62p+36, -0x1.f08f438p+41}}},
+                          {{{0x1.3af23fp+42, 0x1.9a4f3cdp+42, 0x1.b130a0f8p+42},
+                            {0x1.3af37d4p+42, 0x1.9a507b1p+42, 0x1.b12e2478p+42},
+                            {0x1.3af23fp+42, 0x1.9a4f3cdp+42, 0x1.b130a0f8p+42},
+                            {0x1.3af23fp+42, 0x1.9a4f3cdp+42, 0x1.b130a0f8p+42}}}},
+                         0x1p-177,
+                         0,
+                         5,
+                         Norm::maximum},
+                        {{PairKind::edge_edge,
+                          {{{-0x1.21dcd73p+0, -0x1.1270933p+0, -0x1.6f237f9p-1},
+                            {-0x1.21e3643p+0, -0x1.6f2eb49p-1, -0x1.6f2eb49p-1},
+                            {-0x1.21e5d2bp+0, -0x1.ff2598ep+0, -0x1.6f2c7f5p-1},
+                            {-0x1.21dd1f3p+0, -0x1.6f237f9p-1, -0x1.6f26b25p-1}}},
+                          {{{0x1.127534fp+0, -0x1.1270933p+0, -0x1.95ead05p-1},
+                            {-0x1.126ea7fp+0, -0x1.6f2eb49p-1, -0x1.95ed495p-1},
+                            {0x1.127946bp+0, -0x1.ff2598ep+0, -0x1.95efa55p-1},
+                            {-0x1.1270933p+0, -0x1.6f237f9p-1, -0x1.95e9d85p-1}}}},
+                         1e-6,
+                         0,
+                         20,
+                         Norm::euclidean}};
+  for (const Case& c : cases)
+    for (InstructionSet isa : {InstructionSet::scalar, InstructionSet::automatic}) {
+      Options options;
+      options.relative_tolerance = c.relative_tolerance, options.max_checks = c.max_checks;
+      options.norm = c.norm, options.instruction_set = isa, options.exactness = Exactness::conservative;
+      const QueryResult result = scenes::ccd(c.query, options);
+      INFO(oracle::to_text(options, result));
+      CHECK(result.outcome == PairOutcome::max_checks);
+      CHECK(result.checks <= c.max_checks);
+      CHECK(oracle::wrong_report(c.query, options, result) == "");
+    }
+}
