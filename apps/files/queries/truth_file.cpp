@@ -131,7 +131,14 @@ std::vector<ExactToi> read_query_toi(const std::string& path, const std::vector<
     const std::vector<std::string> row = fields(line);
     const std::string place = beside.string() + ":" + std::to_string(times.size() + 1) + ": ";
     if (row.size() != 2) throw InputError(place + "lo,hi expected");
-    const ExactToi toi{number(row[0]), number(row[1])};
+    const auto time = [&](const std::string& word) {
+      try {
+        return number(word);
+      } catch (const InputError& e) {
+        throw InputError(place + e.what());
+      }
+    };
+    const ExactToi toi{time(row[0]), time(row[1])};
     if (times.size() < collides.size() && std::isfinite(toi.lo) != bool(collides[times.size()]))
       throw InputError(place + "contradicts the truth of the query");
     times.push_back(toi);
