@@ -1,5 +1,6 @@
 // Bodies, static vertices, groups, exclusions: every broad phase gives what a filter written from the
 // documentation of CollisionRules leaves of all pairs, and FilterCounts counts them.
+#include <map>
 #include <onset/intersections.hpp>
 #include <onset/mesh.hpp>
 #include <stdexcept>
@@ -7,10 +8,12 @@
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/rule_filter.hpp"
 #include "tests/scenes/rules.hpp"
 
 using namespace onset;
 using namespace onset::tests;
+using scenes::LeftOut;
 using scenes::Random;
 using scenes::set_rule;
 using Rules = CollisionRules;
@@ -19,41 +22,6 @@ namespace {
 
 constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge, kEdgeFace};
 
-bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
-  for (const auto& p : pairs)
-    if ((p[0] == a && p[1] == b) || (p[0] == b && p[1] == a)) return true;
-  return false;
-}
-
-enum Reason { none, masked, fixed, same_body, adjacent, by_name };
-
-Reason left_out(const Rules& r, const std::vector<int>& A, const std::vector<int>& B) {
-  std::uint32_t groups[2] = {0, 0}, masks[2] = {0, 0};
-  bool all_fixed = true, shared = false, apart = false;
-  const std::vector<int>* sides[2] = {&A, &B};
-  for (int side = 0; side < 2; ++side)
-    for (int v : *sides[side]) {
-      groups[side] |= r.groups.empty() ? 1 : r.groups[std::size_t(v)];
-      masks[side] |= r.masks.empty() ? 1 : r.masks[std::size_t(v)];
-      all_fixed = all_fixed && !r.static_vertices.empty() && r.static_vertices[std::size_t(v)];
-    }
-  for (int v : A)
-    for (int w : B) {
-      shared = shared || v == w;
-      apart = apart || named(r.excluded_vertices, v, w);
-    }
-  const int a = r.bodies.empty() ? 0 : r.bodies[std::size_t(A[0])],
-            b = r.bodies.empty() ? 0 : r.bodies[std::size_t(B[0])];
-  if ((groups[0] & masks[1]) == 0 || (groups[1] & masks[0]) == 0) return masked;
-  if (all_fixed) return fixed;
-  if (a == b &&
-      ((!r.rigid_bodies.empty() && r.rigid_bodies[std::size_t(a)]) ||
-       (!r.bodies_without_self_collision.empty() && r.bodies_without_self_collision[std::size_t(a)])))
-    return same_body;
-  if (shared) return adjacent;
-  return apart || named(r.excluded_bodies, a, b) ? by_name : none;
-}
-
 std::vector<int> vertices_of(const MeshData& mesh, Primitive kind, int id) {
   if (kind == Primitive::vertex) return {id};
   if (kind == Primitive::edge) return {mesh.edges[std::size_t(id)][0], mesh.edges[std::size_t(id)][1]};
@@ -61,19 +29,12 @@ std::vector<int> vertices_of(const MeshData& mesh, Primitive kind, int id) {
   return {f[0], f[1], f[2]};
 }
 
-bool named(const Rules& r, PairKind kind, int a, int b) {
-  for (const Intersection& p : r.excluded_intersections)
-    if (kind == kEdgeFace && p.edge == a && p.face == b) return true;
-  for (const Pair& p : r.excluded_pairs)
-    if (p.kind == kind && ((p.a == a && p.b == b) || (kind == PairKind::edge_edge && p.a == b && p.b == a)))
-      return true;
-  return false;
-}
-
-Reason left_out(const Rules& r, const MeshData& mesh, PairKind kind, int a, int b) {
-  const Reason reason =
-      left_out(r, vertices_of(mesh, first_primitive(kind), a), vertices_of(mesh, second_primitive(kind), b));
-  return reason == none && named(r, kind, a, b) ? by_name : reason;
+LeftOut left_out(const Rules& r, const MeshData& mesh, PairKind kind, int a, int b) {
+  const LeftOut reason = scenes::left_out(r, vertices_of(mesh, first_primitive(kind), a),
+                                          vertices_of(mesh, second_primitive(kind), b));
+  const bool by_name =
+      kind == kEdgeFace ? scenes::excludes_intersection(r, a, b) : scenes::excludes_pair(r, kind, a, b);
+  return reason == LeftOut::no && by_name ? LeftOut::by_name : reason;
 }
 
 template <class T>
@@ -171,7 +132,8 @@ Mesh random_rules(Soup& soup, Random& random) {
 
 TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "[property]") {
   Random random(20);
-  std::int64_t found = 0, reasons[6] = {};
+  std::int64_t found = 0;
+  std::map<LeftOut, std::int64_t> reasons;
   for (int round = 0; round < 150; ++round) {
     Soup soup = clusters(scenes::integer(random, 1, 40), random);
     const Mesh mesh = random_rules(soup, random);
@@ -191,9 +153,9 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
         const auto all = make_broad_phase(BroadPhaseMethod::brute, unfiltered);
         IdPairs expected;
         for (const auto& [a, b] : candidates(*all, kind)) {
-          const Reason reason = left_out(rules, soup.mesh, kind, a, b);
+          const LeftOut reason = left_out(rules, soup.mesh, kind, a, b);
           ++reasons[reason];
-          if (reason == none) expected.emplace_back(a, b);
+          if (reason == LeftOut::no) expected.emplace_back(a, b);
         }
         found += std::int64_t(expected.size());
         std::vector<Method> every = methods();
@@ -210,7 +172,8 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
     }
   }
   CHECK(found > 10000);
-  for (const Reason reason : {masked, fixed, same_body, by_name}) CHECK(reasons[reason] > 1000);
+  for (const LeftOut reason : {LeftOut::masked, LeftOut::both_static, LeftOut::same_body, LeftOut::by_name})
+    CHECK(reasons[reason] > 1000);
 }
 
 TEST_CASE("filter counts hold every pair under the first reason that leaves it out", "[property]") {
@@ -222,13 +185,14 @@ TEST_CASE("filter counts hold every pair under the first reason that leaves it o
     std::array<std::vector<bool>, 3> busy;
     for (const Primitive p : kPrimitives) busy[std::size_t(p)].resize(primitive_count(soup.mesh, p));
     for (const PairKind kind : kKinds) {
-      std::int64_t counts[6] = {}, pairs = 0;
+      std::map<LeftOut, std::int64_t> counts;
+      std::int64_t pairs = 0;
       const Primitive first = first_primitive(kind), second = second_primitive(kind);
       for (int a = 0; a < int(primitive_count(soup.mesh, first)); ++a)
         for (int b = first == second ? a + 1 : 0; b < int(primitive_count(soup.mesh, second)); ++b) {
-          const Reason reason = left_out(rules, soup.mesh, kind, a, b);
+          const LeftOut reason = left_out(rules, soup.mesh, kind, a, b);
           ++counts[reason], ++pairs;
-          if (reason == none)
+          if (reason == LeftOut::no)
             busy[std::size_t(first)][std::size_t(a)] = busy[std::size_t(second)][std::size_t(b)] = true;
         }
       if (kind == kEdgeFace) continue;  // in no count, but what may meet that way has a box
@@ -236,12 +200,12 @@ TEST_CASE("filter counts hold every pair under the first reason that leaves it o
       const PairFilterCounts& plan = kind == PairKind::vertex_face ? all.vertex_face : all.edge_edge;
       CAPTURE(round, int(kind));
       CHECK(plan.pairs == pairs);
-      CHECK(plan.masked == counts[masked]);
-      CHECK(plan.both_static == counts[fixed]);
-      CHECK(plan.same_body == counts[same_body]);
-      CHECK(plan.adjacent == counts[adjacent]);
-      CHECK(plan.excluded == counts[by_name]);
-      CHECK(plan.may_meet() == counts[none]);
+      CHECK(plan.masked == counts[LeftOut::masked]);
+      CHECK(plan.both_static == counts[LeftOut::both_static]);
+      CHECK(plan.same_body == counts[LeftOut::same_body]);
+      CHECK(plan.adjacent == counts[LeftOut::adjacent]);
+      CHECK(plan.excluded == counts[LeftOut::by_name]);
+      CHECK(plan.may_meet() == counts[LeftOut::no]);
     }
     // What may meet something is never dropped; adjacency and exclusions are not looked at for that.
     const FilterCounts& all = mesh.filter_counts();
