@@ -31,7 +31,7 @@ SceneTruth::SceneTruth(const Asked& asked) {
   asked.for_pairs([&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
     const scenes::Query motion = query_of(kind, v, asked.x_t0, asked.x_t1);
     const double d = asked.separation(kind, v);
-    if (oracle::boxes_apart(motion, d)) return;
+    if (oracle::boxes_apart(motion, d) || (d == 0 && oracle::surely_apart(motion))) return;
     const oracle::Truth within = oracle::exact_within(motion, d, asked.options.norm);
     if (!within.collides) return;
     const bool touching = within.toi_hi == 0 && oracle::compare_distance(motion, 0, 0) == 0;

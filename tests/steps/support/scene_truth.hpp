@@ -1,6 +1,7 @@
 // The exact contacts of a small scene.
 #pragma once
 
+#include <functional>
 #include <onset/onset.hpp>
 #include <vector>
 
@@ -24,13 +25,14 @@ struct Asked {
   Options options;
   std::vector<double> thickness;                                               // of the mesh; empty: none
   bool weld = false;                                                           // as the mesh was told
+  std::function<bool(PairKind, int, int, const std::array<int, 4>&)> lets{};   // empty: all pairs meet
   double separation(PairKind kind, const std::array<int, 4>& vertices) const;  // that this pair must keep
   bool is_welded(PairKind kind, const std::array<int, 4>& vertices) const;
   // Every pair that may meet: visit(kind, a, b, vertices).
   template <class F>
   void for_pairs(F&& visit) const {
     for_all_pairs(mesh, [&](PairKind kind, int a, int b, const std::array<int, 4>& v) {
-      if (!weld || !is_welded(kind, v)) visit(kind, a, b, v);
+      if ((!lets || lets(kind, a, b, v)) && (!weld || !is_welded(kind, v))) visit(kind, a, b, v);
     });
   }
 };
