@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/radix_sort.hpp"
+#include "tests/asks.hpp"
 #include "tests/catch.hpp"
 #include "tests/queries/random_query.hpp"
 
@@ -39,4 +40,21 @@ TEST_CASE("sorting by digits is stable and orders whole keys", "[unit]") {
       CAPTURE(mask, count);
       CHECK((mine == theirs));
     }
+}
+
+TEST_CASE("sorting by digits can be stopped wherever it asks, once in so many items", "[unit]") {
+  scenes::Random random(8);
+  const int count = 100000;
+  const auto key = [](const Item& x) { return x.key; };
+  std::vector<Item> all = items(count, ~std::uint64_t(0), random);
+  tests::Asks asks;
+  REQUIRE(radix_sort(all, key, asks.stop()));
+  CHECK(std::is_sorted(all.begin(), all.end(), [](const Item& x, const Item& y) { return x.key < y.key; }));
+  CHECK(asks.count >= 13 * (count / std::int64_t(kItemsALook)));  // one round, and two for each of six digits
+  for (std::int64_t n = 0; n < asks.count; ++n) {
+    tests::Asks some(n);
+    std::vector<Item> lost = items(count, ~std::uint64_t(0), random);
+    CHECK_FALSE(radix_sort(lost, key, some.stop()));
+    CHECK(some.count == n + 1);
+  }
 }
