@@ -6,16 +6,27 @@
 
 namespace onset {
 
-// The default is the tree: the hash took 10 to 40 times as long on every scene measured.
-std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input) {
+namespace {
+
+std::unique_ptr<BroadPhase> make(BroadPhaseMethod method, const BroadPhaseInput& input, const Stop& stop) {
   switch (method) {
     case BroadPhaseMethod::brute:
-      return make_brute_force(input);
+      return make_brute_force(input, stop);
     case BroadPhaseMethod::hash:
-      return make_spatial_hash(input);
+      return make_spatial_hash(input, stop);
     default:
-      return make_bvh(input);
+      return make_bvh(input, stop);
   }
+}
+
+}  // namespace
+
+// The default is the tree: the hash took 10 to 40 times as long on every scene measured.
+std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input,
+                                             const Stop& stop) {
+  std::unique_ptr<BroadPhase> made = make(method, input, stop);
+  if (!made->ready()) made.reset();
+  return made;
 }
 
 }  // namespace onset

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "broadphase/box_test.hpp"
 #include "onset/options.hpp"
 #include "scene/mesh_data.hpp"
@@ -43,16 +44,24 @@ class BroadPhase : public PairSource {
  public:
   virtual const char* name() const = 0;
   // Makes new boxes in the memory and order already there, as if made from `input` up to the order of pairs.
-  // The MeshData object and the kinds of pairs must be the same.
-  virtual void refit(const BroadPhaseInput& input) = 0;
+  // The MeshData object and the kinds of pairs must be the same. Where it was stopped, it is not ready().
+  virtual void refit(const BroadPhaseInput& input, const Stop& stop) = 0;
+  void refit(const BroadPhaseInput& input) { refit(input, Stop()); }
+  // Otherwise it has no blocks, and may be refit again.
+  bool ready() const { return ready_; }
   // Says whether the order there is about as good for this motion as for its own, so that a refit is worth
   // it.
   virtual bool suits(const Motion&) const { return false; }
   // Says whether boxes of static primitives were made, not taken from an earlier call.
   virtual bool made_static_boxes() const { return false; }
+
+ protected:
+  bool ready_ = false;
 };
 
-// `input.mesh` and `input.motion` must outlive the result, or its use up to the next refit.
-std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input);
+// `input.mesh` and `input.motion` must outlive the result, or its use up to the next refit. Null where it was
+// stopped.
+std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input,
+                                             const Stop& stop = {});
 
 }  // namespace onset

@@ -10,34 +10,41 @@ namespace onset {
 
 namespace {
 
-constexpr std::size_t kRows = 16;  // primitives of the first side that make a block
+constexpr std::size_t kRows = 16;          // primitives of the first side that make a block
+constexpr std::size_t kTestsALook = 4096;  // pairs between two looks at whether to stop
 
 class BruteForce final : public BroadPhase {
  public:
-  explicit BruteForce(const BroadPhaseInput& input) : mesh_(input.mesh) { refit(input); }
+  BruteForce(const BroadPhaseInput& input, const Stop& stop) : mesh_(input.mesh) { refit(input, stop); }
 
   const char* name() const override { return "brute"; }
 
-  void refit(const BroadPhaseInput& input) override {
+  void refit(const BroadPhaseInput& input, const Stop& stop) override {
     test_ = input.test;
     finite_ = input.motion.status == Outcome::free;
+    ready_ = false;
     for (Primitive kind : kPrimitives)
-      boxes_[std::size_t(kind)] = is_wanted(input, kind) ? motion_boxes(input, kind) : MotionBoxes{};
+      boxes_[std::size_t(kind)] = is_wanted(input, kind) ? motion_boxes(input, kind, stop) : MotionBoxes{};
+    ready_ = !stop.requested();
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return !finite_ || boxes(second_primitive(kind)).ids.empty()
+    return !ready_ || !finite_ || boxes(second_primitive(kind)).ids.empty()
                ? 0
                : (boxes(first_primitive(kind)).ids.size() + kRows - 1) / kRows;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
     const MotionBoxes &A = boxes(first_primitive(kind)), &B = boxes(second_primitive(kind));
+    const std::size_t rows = std::min(last * kRows, A.ids.size());
     PairBatch batch(sink);
-    for (std::size_t i = first * kRows; i < std::min(last * kRows, A.ids.size()); ++i)
-      for (std::size_t j = kind == PairKind::edge_edge ? i + 1 : 0; j < B.ids.size(); ++j)
-        if (boxes_overlap(test_, A.boxes[i], B.boxes[j]) && may_meet(mesh_, kind, A.ids[i], B.ids[j]))
-          batch.add(A.ids[i], B.ids[j]);
+    for (std::size_t i = first * kRows; i < rows; ++i)
+      for (std::size_t j = kind == PairKind::edge_edge ? i + 1 : 0; j < B.ids.size();) {
+        if (sink.stop.requested()) return;
+        for (const std::size_t end = std::min(j + kTestsALook, B.ids.size()); j < end; ++j)
+          if (boxes_overlap(test_, A.boxes[i], B.boxes[j]) && may_meet(mesh_, kind, A.ids[i], B.ids[j]))
+            batch.add(A.ids[i], B.ids[j]);
+      }
     batch.flush();
   }
 
@@ -52,8 +59,8 @@ class BruteForce final : public BroadPhase {
 
 }  // namespace
 
-std::unique_ptr<BroadPhase> make_brute_force(const BroadPhaseInput& input) {
-  return std::make_unique<BruteForce>(input);
+std::unique_ptr<BroadPhase> make_brute_force(const BroadPhaseInput& input, const Stop& stop) {
+  return std::make_unique<BruteForce>(input, stop);
 }
 
 }  // namespace onset

@@ -5,6 +5,6 @@
 
 namespace onset {
 
-std::unique_ptr<BroadPhase> make_brute_force(const BroadPhaseInput& input);
+std::unique_ptr<BroadPhase> make_brute_force(const BroadPhaseInput& input, const Stop& stop);
 
 }  // namespace onset

@@ -5,20 +5,22 @@
 
 namespace onset {
 
-CellGrid::CellGrid(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit) {
+CellGrid::CellGrid(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit,
+                   const Stop& stop) {
   double sum = 0;
   std::size_t count = 0;
   for (const auto* set : sets) {
     count += set->size();
-    for (const FloatBox& b : *set) {
+    each_unless(stop, 0, set->size(), [&](std::size_t k) {
+      const FloatBox& b = (*set)[k];
       double widest = 0;
       for (std::size_t i = 0; i < 3; ++i) widest = std::max(widest, double(b.hi[i]) - double(b.lo[i]));
       sum += widest;
-    }
+    });
   }
   // FloatMap gives the bulk a spread of about 1, so cells of 2^-17 keep it off the outermost ones.
   const double width = count > 0 ? std::max(2 * sum / double(count), 0x1p-17) : 1;
-  for (cells_per_unit_ = 1 / width; !fits(sets, limit);) cells_per_unit_ /= 2;
+  for (cells_per_unit_ = 1 / width; !fits(sets, limit) && !stop.requested();) cells_per_unit_ /= 2;
 }
 
 CellGrid::Corner CellGrid::corner(const std::array<float, 3>& point) const {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/stop.hpp"
+
 namespace onset {
 
 // The box of a whole motion, through a FloatMap (broadphase/bvh/float_boxes.hpp).
@@ -18,8 +20,8 @@ struct FloatBox {
 class CellGrid {
  public:
   // Makes cells about twice as wide as the mean box, and doubles that until at most `limit` are covered in
-  // all.
-  CellGrid(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit);
+  // all, or it is stopped.
+  CellGrid(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit, const Stop& stop = {});
 
   // Calls f(cell) for every cell that the box covers.
   template <class F>

@@ -82,7 +82,7 @@ MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, doubl
   return box;
 }
 
-MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind) {
+MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind, const Stop& stop) {
   MotionBoxes result;
   const PrimitiveFilter& filter = *input.mesh.filter;
   if (filter.all) {
@@ -95,7 +95,8 @@ MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind) {
   }
   result.boxes.resize(result.ids.size());
   parallel_ranges(result.boxes.size(), 1024, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) result.boxes[i] = motion_box(input, kind, result.ids[i]);
+    each_unless(stop, first, last,
+                [&](std::size_t i) { result.boxes[i] = motion_box(input, kind, result.ids[i]); });
   });
   return result;
 }

@@ -28,7 +28,8 @@ struct MotionBoxes {
   std::vector<int> ids;
   std::vector<MotionBox> boxes;
 };
-MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind);
+// Some boxes are missing where it was stopped.
+MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind, const Stop& stop = {});
 
 // Says whether boxes overlap by a test. This is the definition that all methods keep to.
 bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b);

@@ -1,9 +1,10 @@
 #include "broadphase/spatial_hash.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 
-#include "base/parallel.hpp"
+#include "base/radix_sort.hpp"
 #include "broadphase/bvh/float_boxes.hpp"
 #include "broadphase/cell_grid.hpp"
 #include "scene/pair_source.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kEntriesEach = 8;      // cells that a primitive may cover on average: bounds the memory
 constexpr std::size_t kEntriesABlock = 512;  // more where one cell holds more
+constexpr std::size_t kTestsALook = 4096;    // entries and pairs between two looks at whether to stop
 
 struct Boxes {
   std::vector<int> ids;
@@ -21,19 +23,20 @@ struct Boxes {
   std::vector<FloatBox> swept;
 };
 
-Boxes make_boxes(const BroadPhaseInput& input, const FloatMap& map, Primitive kind) {
+Boxes make_boxes(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, const Stop& stop) {
   Boxes boxes;
-  MotionBoxes made = motion_boxes(input, kind);
+  MotionBoxes made = motion_boxes(input, kind, stop);
   boxes.ids = std::move(made.ids), boxes.exact = std::move(made.boxes);
   boxes.swept.reserve(boxes.exact.size());
-  for (const MotionBox& b : boxes.exact) {
+  each_unless(stop, 0, boxes.exact.size(), [&](std::size_t k) {
+    const MotionBox& b = boxes.exact[k];
     FloatBox f;
     for (std::size_t i = 0; i < 3; ++i) {
       f.lo[i] = map(std::min(b.lo_t0[i], b.lo_t1[i]), i);
       f.hi[i] = map(std::max(b.hi_t0[i], b.hi_t1[i]), i);
     }
     boxes.swept.push_back(f);
-  }
+  });
   return boxes;
 }
 
@@ -43,25 +46,35 @@ struct Entry {
   bool second;  // which side of the pair
 };
 
-// Sorts the primitives of both sides of a kind of pairs by cell.
+// A key in the order of the numbers, -0 being 0.
+std::uint64_t ordered(float x) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  if (x == 0) bits = 0;
+  return bits >> 31 ? ~bits : bits | 0x80000000u;
+}
+
+// Sorts the primitives of both sides of a kind of pairs by cell, and within a cell by side and id.
 class Cells {
  public:
-  Cells(const std::vector<FloatBox>& first, const std::vector<FloatBox>& second, bool self)
+  Cells(const std::vector<FloatBox>& first, const std::vector<FloatBox>& second, bool self, const Stop& stop)
       : sides_{&first, &second},
         self_(self),
         grid_(self ? std::vector{&first} : std::vector{&first, &second},
-              kEntriesEach * (first.size() + (self ? 0 : second.size()))) {
+              kEntriesEach * (first.size() + (self ? 0 : second.size())), stop) {
     for (int side = 0; side < (self ? 1 : 2); ++side)
-      for (std::size_t id = 0; id < sides_[side]->size(); ++id)
+      each_unless(stop, 0, sides_[side]->size(), [&](std::size_t id) {
         grid_.visit((*sides_[side])[id], [&](std::uint64_t cell) {
           entries_.push_back({cell, int(id), side == 1});
         });
-    parallel_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-      return a.cell != b.cell ? a.cell < b.cell : a.second != b.second ? b.second : a.id < b.id;
-    });
-    for (std::size_t i = 0; i < entries_.size(); ++i)
+      });
+    if (!radix_sort(
+            entries_, [](const Entry& e) { return e.cell; }, stop))
+      entries_.clear();
+    each_unless(stop, 0, entries_.size(), [&](std::size_t i) {
       if (i == 0 || (i - block_starts_.back() >= kEntriesABlock && entries_[i].cell != entries_[i - 1].cell))
         block_starts_.push_back(i);
+    });
     block_starts_.push_back(entries_.size());
   }
 
@@ -69,8 +82,9 @@ class Cells {
 
   // Calls f(a, b) once for each pair whose swept float boxes overlap, in the cell where it is to be reported.
   template <class F>
-  void visit(std::size_t first, std::size_t last, F&& f) const {
+  void visit(std::size_t first, std::size_t last, const Stop& stop, F&& f) const {
     std::vector<Member> members;
+    Patience patience{stop};
     const std::size_t end = block_starts_[last];
     for (std::size_t i = block_starts_[first]; i < end;) {
       const std::uint64_t cell = entries_[i].cell;
@@ -78,7 +92,7 @@ class Cells {
       for (; i < end && entries_[i].cell == cell; ++i)
         members.push_back(
             {(*sides_[entries_[i].second])[std::size_t(entries_[i].id)], entries_[i].id, entries_[i].second});
-      sweep(members, cell, f);
+      if (!patience.lasts(members.size()) || !sweep(members, cell, patience, f)) return;
     }
   }
 
@@ -89,15 +103,36 @@ class Cells {
     bool second;
   };
 
-  // Sorts by lower end along the first axis, and compares each with those that begin before it ends.
-  template <class F>
-  void sweep(std::vector<Member>& members, std::uint64_t cell, F&& f) const {
+  // Asks every kTestsALook.
+  struct Patience {
+    const Stop& stop;
+    std::size_t tests = 0;
+    bool lasts(std::size_t more) {
+      if ((tests += more) < kTestsALook) return true;
+      tests = 0;
+      return !stop.requested();
+    }
+  };
+
+  // Sorts by lower end along the first axis, then by side and id, as they come.
+  static bool sort(std::vector<Member>& members, const Stop& stop) {
+    if (members.size() >= kItemsALook)
+      return radix_sort(
+          members, [](const Member& p) { return ordered(p.box.lo[0]); }, stop);
     std::sort(members.begin(), members.end(), [](const Member& p, const Member& q) {
       if (p.box.lo[0] != q.box.lo[0]) return p.box.lo[0] < q.box.lo[0];
       return p.second != q.second ? q.second : p.id < q.id;
     });
+    return true;
+  }
+
+  // Compares each with those that begin before it ends. Returns false where it was stopped.
+  template <class F>
+  bool sweep(std::vector<Member>& members, std::uint64_t cell, Patience& patience, F&& f) const {
+    if (!sort(members, patience.stop)) return false;
     for (auto p = members.begin(); p != members.end(); ++p)
       for (auto q = p + 1; q != members.end() && q->box.lo[0] <= p->box.hi[0]; ++q) {
+        if (!patience.lasts(1)) return false;
         if (p->second == q->second && !self_) continue;
         const FloatBox &a = p->box, &b = q->box;
         if (b.lo[1] > a.hi[1] || a.lo[1] > b.hi[1] || b.lo[2] > a.hi[2] || a.lo[2] > b.hi[2]) continue;
@@ -105,6 +140,7 @@ class Cells {
         const bool swap = self_ ? p->id > q->id : p->second;
         swap ? f(q->id, p->id) : f(p->id, q->id);
       }
+    return true;
   }
 
   const std::vector<FloatBox>* sides_[2];
@@ -116,32 +152,38 @@ class Cells {
 
 class SpatialHash final : public BroadPhase {
  public:
-  explicit SpatialHash(const BroadPhaseInput& input) : mesh_(input.mesh) { refit(input); }
+  SpatialHash(const BroadPhaseInput& input, const Stop& stop) : mesh_(input.mesh) { refit(input, stop); }
 
   const char* name() const override { return "hash"; }
 
   bool suits(const Motion&) const override { return true; }  // a grid has no order to spoil
-  void refit(const BroadPhaseInput& input) override {
+  void refit(const BroadPhaseInput& input, const Stop& stop) override {
     test_ = input.test;
+    ready_ = false;
     finite_ = input.motion.status == Outcome::free;
-    if (!finite_) return;
-    const FloatMap map(input.motion);
-    for (Primitive kind : kPrimitives)
-      boxes_[std::size_t(kind)] = is_wanted(input, kind) ? make_boxes(input, map, kind) : Boxes{};
-    for (PairKind kind : wanted_kinds(input))
-      cells_[std::size_t(kind)].emplace(boxes(first_primitive(kind)).swept,
-                                        boxes(second_primitive(kind)).swept, kind == PairKind::edge_edge);
+    if (finite_) {
+      const FloatMap map(input.motion);
+      for (Primitive kind : kPrimitives)
+        boxes_[std::size_t(kind)] = is_wanted(input, kind) ? make_boxes(input, map, kind, stop) : Boxes{};
+      for (PairKind kind : wanted_kinds(input)) {
+        if (stop.requested()) return;
+        cells_[std::size_t(kind)].emplace(boxes(first_primitive(kind)).swept,
+                                          boxes(second_primitive(kind)).swept, kind == PairKind::edge_edge,
+                                          stop);
+      }
+    }
+    ready_ = !stop.requested();
   }
 
   std::size_t blocks(PairKind kind) const override {
     const std::optional<Cells>& cells = cells_[std::size_t(kind)];
-    return finite_ && cells ? cells->blocks() : 0;
+    return ready_ && finite_ && cells ? cells->blocks() : 0;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
     const Boxes &A = boxes(first_primitive(kind)), &B = boxes(second_primitive(kind));
     PairBatch batch(sink);
-    cells_[std::size_t(kind)]->visit(first, last, [&](int i, int j) {
+    cells_[std::size_t(kind)]->visit(first, last, sink.stop, [&](int i, int j) {
       const int a = A.ids[std::size_t(i)], b = B.ids[std::size_t(j)];
       if (boxes_overlap(test_, A.exact[std::size_t(i)], B.exact[std::size_t(j)]) &&
           may_meet(mesh_, kind, a, b))
@@ -162,8 +204,8 @@ class SpatialHash final : public BroadPhase {
 
 }  // namespace
 
-std::unique_ptr<BroadPhase> make_spatial_hash(const BroadPhaseInput& input) {
-  return std::make_unique<SpatialHash>(input);
+std::unique_ptr<BroadPhase> make_spatial_hash(const BroadPhaseInput& input, const Stop& stop) {
+  return std::make_unique<SpatialHash>(input, stop);
 }
 
 }  // namespace onset

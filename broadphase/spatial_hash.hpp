@@ -5,6 +5,6 @@
 
 namespace onset {
 
-std::unique_ptr<BroadPhase> make_spatial_hash(const BroadPhaseInput& input);
+std::unique_ptr<BroadPhase> make_spatial_hash(const BroadPhaseInput& input, const Stop& stop);
 
 }  // namespace onset

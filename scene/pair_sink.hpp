@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "base/stop.hpp"
 #include "onset/result.hpp"
 
 namespace onset {
@@ -17,6 +18,8 @@ struct IdPair {
 struct PairSink {
   void* context;
   void (*consume)(void* context, const IdPair* pairs, std::size_t count);
+  // Asked by whoever streams pairs, also where none passes its tests; what is left then need not come.
+  Stop stop{};
   void operator()(const IdPair* pairs, std::size_t count) const { consume(context, pairs, count); }
 };
 

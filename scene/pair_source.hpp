@@ -36,7 +36,8 @@ class PairSource {
   // Returns the number of units of work, which may be traversed concurrently. Their number and content do not
   // depend on the number of threads. There are none where a motion is not finite or out of range.
   virtual std::size_t blocks(PairKind kind) const = 0;
-  // Streams the candidates of blocks [first, last) in batches of at most kBatchSize.
+  // Streams the candidates of blocks [first, last) in batches of at most kBatchSize. It asks sink.stop at
+  // least once in 2^14 pairs that it looks at.
   virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
 };
 

@@ -22,15 +22,15 @@ bool own_supports(const BroadPhaseInput& input, Primitive kind) {
 
 // Unused lanes refer to the record after the last, which is kNowhere.
 BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
-                 bool alone)
+                 bool alone, const Stop& stop)
     : kind_(kind), count_(list.count) {
   const std::size_t each = std::size_t(vertices_each(kind_)), slots = (count_ + kBlock - 1) / kBlock * kBlock;
   ids_ = AlignedArray<int>(slots), vertices_ = AlignedArray<int>(slots * each);
-  order_primitives(mesh, kind, list, order, ids_.data());
+  if (!order_primitives(mesh, kind, list, order, ids_.data(), stop)) return;
   std::fill(ids_.data() + count_, ids_.data() + slots, int(count_));
   if (!alone) names_.resize(slots * each, -1);
   parallel_ranges(slots, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t slot = first; slot < last; ++slot) {
+    each_unless(stop, first, last, [&](std::size_t slot) {
       int* out = vertices_.data() + slot / kBlock * each * kBlock + slot % kBlock;
       const auto vertices =
           slot < count_ ? primitive_vertices(mesh, kind_, ids_[slot]) : std::array<int, 3>{};
@@ -39,21 +39,22 @@ BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const
       if (!alone && slot < count_)
         for (std::size_t k = 0; k < each; ++k)
           names_[std::size_t(out - vertices_.data()) + k * kBlock] = vertices[k];
-    }
+    });
   });
-  if (mesh.filter->compares_keys) make_keys(mesh);
+  if (mesh.filter->compares_keys && !stop.requested()) make_keys(mesh, stop);
 }
 
 // bodies_ has all levels one after the other (see TreeView). Unused lanes meet no group.
-void BoxTree::make_keys(const MeshData& mesh) {
+void BoxTree::make_keys(const MeshData& mesh, const Stop& stop) {
   const std::vector<PrimitiveKey>& all = mesh.filter->keys[std::size_t(kind_)];
   keys_.assign(3 * ids_.size(), 0), bodies_.assign(ids_.size(), 0);
-  for (std::size_t slot = 0; slot < count_; ++slot) {
+  const auto put = [&](std::size_t slot) {
     const PrimitiveKey& key = all[std::size_t(ids_[slot])];
     int* row = keys_.data() + slot / kBlock * (3 * kBlock) + slot % kBlock;
     row[0] = key.flags, row[kBlock] = int(key.group), row[2 * kBlock] = int(key.mask);
     bodies_[slot] = key.body;
-  }
+  };
+  if (!each_unless(stop, 0, count_, put)) return;
   std::size_t below = 0, used = count_, levels = 1;
   do {
     const std::size_t above = bodies_.size(), blocks = (used + kBlock - 1) / kBlock;
@@ -98,11 +99,13 @@ void BoxTree::lay_out(bool motion) {
 }
 
 void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap& map,
-                  const Supports& vertices) {
-  if (count_ == 0) return;
+                  const Supports& vertices, const Stop& stop) {
+  if (count_ == 0 || stop.requested()) return;
   const bool motion = input.test != BoxTest::swept, own = own_supports(input, kind_);
   const BvhKernel& kernel = bvh_kernel(input.instruction_set);
-  const Supports mine = own ? make_supports(input, inflation, map, kind_, ids_.data(), count_) : Supports{};
+  const Supports mine =
+      own ? make_supports(input, inflation, map, kind_, ids_.data(), count_, stop) : Supports{};
+  if (stop.requested()) return;
   const Supports& supports = own ? mine : vertices;
   rounded_axes_ = supports.rounded_axes;
   lay_out(motion);
@@ -110,9 +113,11 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
   for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = int(std::min(slot, count_));
   const FitArguments fit{view_, motion, supports.records.data(), own ? slots.data() : vertices_.data(),
                          own ? 1 : vertices_each(kind_)};
-  parallel_ranges(blocks(), kGrain,
-                  [&](std::size_t first, std::size_t last) { kernel.fit_leaves(fit, first, last); });
-  for (int l = 1; l < view_.levels; ++l)
+  parallel_ranges(blocks(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (; first < last && !stop.requested(); first += kGrain)
+      kernel.fit_leaves(fit, first, std::min(first + kGrain, last));
+  });
+  for (int l = 1; l < view_.levels && !stop.requested(); ++l)
     parallel_ranges(std::size_t(view_.blocks[l]), kGrain, [&](std::size_t first, std::size_t last) {
       kernel.fit_level(view_, l, motion, first, last);
     });

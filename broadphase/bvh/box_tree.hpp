@@ -22,12 +22,15 @@ const BvhKernel& bvh_kernel(InstructionSet kernel);
 class BoxTree {
  public:
   // Takes the primitives listed, whose vertices must all have a rank. A tree that is traversed with one of
-  // another `order` must not be `alone`: its vertices then go by ids, which all orders share.
-  BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order, bool alone);
+  // another `order` must not be `alone`: its vertices then go by ids, which all orders share. Where this, or
+  // a fit, was stopped, the tree is not to be used.
+  BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order, bool alone,
+          const Stop& stop = {});
 
   // Makes the boxes, widened by `inflation` and thickness. `vertices` are the supports by rank, widened
   // alike, which suffice where there is no thickness.
-  void fit(const BroadPhaseInput& input, double inflation, const FloatMap& map, const Supports& vertices);
+  void fit(const BroadPhaseInput& input, double inflation, const FloatMap& map, const Supports& vertices,
+           const Stop& stop = {});
 
   // Says whether the unions of all boxes of two fitted trees are apart.
   bool apart(const BoxTree& other, bool motion) const;
@@ -42,7 +45,7 @@ class BoxTree {
   std::size_t blocks() const { return ids_.size() / kBlock; }
   float reach(int row) const;  // a support of the union of all boxes
   void lay_out(bool motion);
-  void make_keys(const MeshData& mesh);
+  void make_keys(const MeshData& mesh, const Stop& stop);
 
   Primitive kind_;
   std::size_t count_;

@@ -14,7 +14,7 @@ namespace {
 
 class Bvh final : public BroadPhase {
  public:
-  explicit Bvh(const BroadPhaseInput& input) {
+  Bvh(const BroadPhaseInput& input, const Stop& stop) {
     const MeshData& mesh = input.mesh;
     const PrimitiveFilter& filter = *mesh.filter;
     const bool all = filter.all;
@@ -25,17 +25,19 @@ class Bvh final : public BroadPhase {
     const auto listed = [&](const std::vector<int>& ids) { return IdList{ids.data(), ids.size()}; };
     order_ = make_vertex_order(
         input.motion, map,
-        all ? IdList{nullptr, std::size_t(mesh.num_vertices)} : listed(filter.moving_vertices));
+        all ? IdList{nullptr, std::size_t(mesh.num_vertices)} : listed(filter.moving_vertices), stop);
+    if (stop.requested()) return;
     parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k)
+      for (std::size_t k = first; k < last && !stop.requested(); ++k)
         trees_[k].emplace(mesh, kPrimitives[k],
                           !is_wanted(input, kPrimitives[k]) ? IdList{nullptr, 0}
                           : all ? IdList{nullptr, primitive_count(mesh, kPrimitives[k])}
                                 : listed(filter.moving[k]),
-                          order_, alone);
+                          order_, alone, stop);
     });
+    if (stop.requested()) return;
     roughness_ = roughness(order_, input.motion);
-    fit(input, map);
+    fit(input, map, stop);
   }
 
   const char* name() const override { return "bvh"; }
@@ -45,19 +47,19 @@ class Bvh final : public BroadPhase {
     return roughness(order_, motion) <= kMostRoughened * roughness_;
   }
 
-  void refit(const BroadPhaseInput& input) override {
+  void refit(const BroadPhaseInput& input, const Stop& stop) override {
     finite_ = input.motion.status == Outcome::free;
     if (finite_ && input.mesh.filter->has_static()) {
       bool made = false;
       static_ = static_trees(input, made);
       made_static_ = made;
     }
-    fit(input, static_ ? static_->map : FloatMap(input.motion));
+    fit(input, static_ ? static_->map : FloatMap(input.motion), stop);
   }
 
   std::size_t blocks(PairKind kind) const override {
     const auto& couples = couples_[std::size_t(kind)];
-    return couples.empty() ? 0 : couples.back().end;
+    return !ready_ || couples.empty() ? 0 : couples.back().end;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
@@ -104,19 +106,24 @@ class Bvh final : public BroadPhase {
     arguments.first = first, arguments.last = last;
     arguments.meets = Decide::meet, arguments.excluded = Decide::excluded, arguments.context = &decide;
     arguments.consume = sink.consume, arguments.consume_context = sink.context;
+    arguments.stop = sink.stop.asked, arguments.stop_context = sink.stop.context;
     bvh_kernel(input_->instruction_set).traverse(arguments);
   }
 
-  void fit(const BroadPhaseInput& input, const FloatMap& map) {
+  void fit(const BroadPhaseInput& input, const FloatMap& map, const Stop& stop) {
+    ready_ = false;
     input_.emplace(input);
     input_->instruction_set = resolve_instruction_set(input.instruction_set);
     const double inflation = part_inflation(input, false);
-    const Supports vertices =
-        make_supports(*input_, inflation, map, Primitive::vertex, order_.vertex.data(), order_.vertex.size());
+    const Supports vertices = make_supports(*input_, inflation, map, Primitive::vertex, order_.vertex.data(),
+                                            order_.vertex.size(), stop);
+    if (stop.requested()) return;
     parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, inflation, map, vertices);
+      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, inflation, map, vertices, stop);
     });
+    if (stop.requested()) return;
     for (const PairKind kind : wanted_kinds(input)) couple(kind);
+    ready_ = true;
   }
 
   // Lists the trees to be traversed together: never static ones with static ones.
@@ -149,6 +156,8 @@ class Bvh final : public BroadPhase {
 
 }  // namespace
 
-std::unique_ptr<BroadPhase> make_bvh(const BroadPhaseInput& input) { return std::make_unique<Bvh>(input); }
+std::unique_ptr<BroadPhase> make_bvh(const BroadPhaseInput& input, const Stop& stop) {
+  return std::make_unique<Bvh>(input, stop);
+}
 
 }  // namespace onset

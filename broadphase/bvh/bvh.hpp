@@ -5,6 +5,6 @@
 
 namespace onset {
 
-std::unique_ptr<BroadPhase> make_bvh(const BroadPhaseInput& input);
+std::unique_ptr<BroadPhase> make_bvh(const BroadPhaseInput& input, const Stop& stop);
 
 }  // namespace onset

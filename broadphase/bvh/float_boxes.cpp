@@ -148,7 +148,7 @@ int write_widened_point(const FloatMap& map, const double* x, double r, float* o
 }  // namespace
 
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
-                       const int* ids, std::size_t count) {
+                       const int* ids, std::size_t count, const Stop& stop) {
   const bool swept = input.test == BoxTest::swept;
   const bool points = kind == Primitive::vertex && input.mesh.thickness.empty() && input.t_max == 1;
   const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
@@ -160,7 +160,7 @@ Supports make_supports(const BroadPhaseInput& input, double inflation, const Flo
   parallel_ranges(s.count, kGrain, [&](std::size_t first, std::size_t last) {
     int mine = 0;
     float record[2 * kBlock];
-    for (std::size_t i = first; i < last; ++i) {
+    each_unless(stop, first, last, [&](std::size_t i) {
       if (points && i + kAhead < last) __builtin_prefetch(input.motion.t0(ids[i + kAhead]));
       if (points)
         mine |= inflation == 0 ? write_point(map, input.motion.t0(ids[i]), record)
@@ -170,7 +170,7 @@ Supports make_supports(const BroadPhaseInput& input, double inflation, const Flo
       float* out = s.records.data() + i * stride;
       for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
       if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);
-    }
+    });
     rounded.fetch_or(mine);
   });
   s.rounded_axes = rounded;

@@ -65,8 +65,9 @@ struct Supports {
   int rounded_axes = 0;
 };
 
-// Makes the supports of the primitives ids[0..count), each widened by `inflation` and its own thickness.
+// Makes the supports of the primitives ids[0..count), each widened by `inflation` and its own thickness; not
+// all of them where it was stopped.
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
-                       const int* ids, std::size_t count);
+                       const int* ids, std::size_t count, const Stop& stop = {});
 
 }  // namespace onset

@@ -74,6 +74,9 @@ struct TraverseArguments {
   const void* context;
   void (*consume)(void* context, const IdPair* pairs, std::size_t count);
   void* consume_context;
+  // As Stop::asked: null, or says whether the rest need not be traversed.
+  bool (*stop)(void* context);
+  void* stop_context;
 };
 
 #define ONSET_DECLARE_BVH_KERNEL(isa)                                                                \

@@ -85,25 +85,29 @@ bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& 
 constexpr std::size_t kFew = 1024;  // so few are sorted faster by comparing
 
 // Sorts stably.
-void sort_by_key(Keyed* keys, Keyed* scratch, std::size_t count) {
+void sort_by_key(Keyed* keys, Keyed* scratch, std::size_t count, const Stop& stop) {
   if (count < kFew)
     std::stable_sort(keys, keys + count, [](const Keyed& a, const Keyed& b) { return a.key < b.key; });
   else
-    radix_sort(keys, scratch, count, [](const Keyed& k) { return std::uint64_t(k.key); });
+    radix_sort(
+        keys, scratch, count, [](const Keyed& k) { return std::uint64_t(k.key); }, stop);
 }
 
-void sort_range(const float* points, Keyed* keys, Keyed* scratch, std::size_t count, int depth) {
+void sort_range(const float* points, Keyed* keys, Keyed* scratch, std::size_t count, int depth,
+                const Stop& stop) {
+  if (stop.requested()) return;
   Grid grid;
   if (!fit_grid(points, keys, keys + count, grid)) return;
   parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      keys[i].key = grid.key(points + 3 * std::size_t(keys[i].index));
+    each_unless(stop, first, last,
+                [&](std::size_t i) { keys[i].key = grid.key(points + 3 * std::size_t(keys[i].index)); });
   });
-  sort_by_key(keys, scratch, count);
+  sort_by_key(keys, scratch, count, stop);
   if (depth == kDeepest) return;
   for (std::size_t first = 0, last; first < count; first = last) {
     for (last = first + 1; last < count && keys[last].key == keys[first].key;) ++last;
-    if (last - first > kCrowd) sort_range(points, keys + first, scratch + first, last - first, depth + 1);
+    if (last - first > kCrowd)
+      sort_range(points, keys + first, scratch + first, last - first, depth + 1, stop);
   }
 }
 
@@ -120,12 +124,14 @@ std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return key;
 }
 
-void order_along_curve(const float* points, std::size_t count, int* order) {
-  if (count == 0) return;
+bool order_along_curve(const float* points, std::size_t count, int* order, const Stop& stop) {
+  if (count == 0) return true;
   std::vector<Keyed> keys(count), scratch(count);
   for (std::size_t i = 0; i < count; ++i) keys[i] = {0, int(i)};
-  sort_range(points, keys.data(), scratch.data(), count, 0);
+  sort_range(points, keys.data(), scratch.data(), count, 0, stop);
+  if (stop.requested()) return false;
   for (std::size_t i = 0; i < count; ++i) order[i] = keys[i].index;
+  return true;
 }
 
 }  // namespace onset

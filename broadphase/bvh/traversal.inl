@@ -38,6 +38,7 @@ class Traversal {
       if (start.full()) empty_blocks(top);
     }
     for (int level = top; level >= 0; --level) empty_blocks(level);
+    if (stopped_) return;
     settle_doubtful();
     flush();
   }
@@ -95,10 +96,8 @@ class Traversal {
 
   // blocks_[level] pairs blocks of `query` at level min(level, 1) with blocks of `tree` at `level`.
   void empty_blocks(int level) {
-    if (level > 1)
-      descend(level);
-    else
-      split(level);
+    stopped_ = stopped_ || (t_.stop != nullptr && t_.stop(t_.stop_context));
+    if (!stopped_) level > 1 ? descend(level) : split(level);
     blocks_[level].count = 0;
   }
 
@@ -133,10 +132,7 @@ class Traversal {
   }
 
   void empty_children(int level) {
-    if (level > 0)
-      pair_children(level);
-    else
-      emit();
+    if (!stopped_) level > 0 ? pair_children(level) : emit();
     children_[level].count = 0;
   }
 
@@ -283,6 +279,7 @@ class Traversal {
 
   const TraverseArguments& t_;
   Pairs blocks_[kMaxLevels], children_[2], doubtful_;
+  bool stopped_ = false;
   std::size_t count_ = 0;
   IdPair out_[kBatchSize];
 };

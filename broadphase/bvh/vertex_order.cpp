@@ -54,46 +54,51 @@ double roughness(const VertexOrder& order, const Motion& motion) {
   return far > 0 ? near / far : 0;
 }
 
-VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices) {
+VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices,
+                              const Stop& stop) {
   const std::size_t count = vertices.count;
   std::vector<float> points(3 * count);  // twice the middle of the motion
   parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
+    each_unless(stop, first, last, [&](std::size_t k) {
       const int v = vertices[k];
       for (std::size_t i = 0; i < 3; ++i)
         points[3 * k + i] = map(motion.t0(v)[i], i) + map(motion.t1(v)[i], i);
-    }
+    });
   });
   VertexOrder result;
   result.vertex.resize(count), result.rank.resize(std::size_t(motion.num_vertices));
-  order_along_curve(points.data(), count, result.vertex.data());
+  if (!order_along_curve(points.data(), count, result.vertex.data(), stop)) return {};
   if (vertices.ids)
     for (int& v : result.vertex) v = vertices[std::size_t(v)];
   for (std::size_t r = 0; r < count; ++r) result.rank[std::size_t(result.vertex[r])] = int(r);
   return result;
 }
 
-void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
-                      int* ids) {
+bool order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
+                      int* ids, const Stop& stop) {
   const std::size_t count = list.count;
-  if (count == 0) return;  // an empty list may have a null data(), which means all
+  if (count == 0) return true;  // an empty list may have a null data(), which means all
   if (kind == Primitive::vertex && !list.ids) {
     std::copy(order.vertex.begin(), order.vertex.end(), ids);
-    return;
+    return true;
   }
   const int* rank = order.rank.data();
   AlignedArray<int> lowest(count);
   parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) lowest[i] = rank_range(mesh, kind, rank, list[i]).lowest;
+    each_unless(stop, first, last,
+                [&](std::size_t i) { lowest[i] = rank_range(mesh, kind, rank, list[i]).lowest; });
   });
+  if (stop.requested()) return false;
   std::vector<int> start(order.vertex.size(), 0);
-  for (std::size_t i = 0; i < count; ++i) ++start[std::size_t(lowest[i])];
+  if (!each_unless(stop, 0, count, [&](std::size_t i) { ++start[std::size_t(lowest[i])]; })) return false;
   int sum = 0;
   for (int& n : start) sum += std::exchange(n, sum);
-  for (std::size_t i = 0; i < count; ++i) ids[start[std::size_t(lowest[i])]++] = list[i];
-  for (std::size_t r = 0, first = 0; r < start.size();
-       first = std::size_t(start[r++]))  // start[r] is now where run r ends
-    if (start[r] - std::ptrdiff_t(first) > kLongRun) sort_run(mesh, kind, rank, ids + first, ids + start[r]);
+  if (!each_unless(stop, 0, count, [&](std::size_t i) { ids[start[std::size_t(lowest[i])]++] = list[i]; }))
+    return false;
+  return each_unless(stop, 0, start.size(), [&](std::size_t r) {
+    const int first = r > 0 ? start[r - 1] : 0;  // start[r] is now where run r ends
+    if (start[r] - first > kLongRun) sort_run(mesh, kind, rank, ids + first, ids + start[r]);
+  });
 }
 
 }  // namespace onset

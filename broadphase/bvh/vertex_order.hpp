@@ -25,13 +25,14 @@ struct VertexOrder {
 // apart.
 double roughness(const VertexOrder& order, const Motion& motion);
 
-// Orders `vertices` along the curve, by the middle of their motion.
-VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices);
+// Orders `vertices` along the curve, by the middle of their motion. Not to be used where it was stopped.
+VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const IdList& vertices,
+                              const Stop& stop = {});
 
 // Fills ids[0..list.count) in the order of the lowest rank among their vertices, and many of one lowest rank
 // by the highest. Traversal is within 5 % of that along a curve through their own centres, and ordering costs
-// a counting sort.
-void order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
-                      int* ids);
+// a counting sort. Returns false where it was stopped.
+bool order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
+                      int* ids, const Stop& stop = {});
 
 }  // namespace onset
