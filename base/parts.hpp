@@ -20,6 +20,10 @@ namespace onset {
 template <class T>
 class Parts {
  public:
+  Parts() = default;
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
   // Tasks hand over what they have once it is so much.
   static constexpr std::size_t kPart = kItemsALook;
 
@@ -38,10 +42,18 @@ class Parts {
     const std::lock_guard<std::mutex> lock(mutex_);
     return count_;
   }
+  // All threads help: to give back a gigabyte takes a tenth of a second.
   void clear() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    full_ = {}, open_ = {};
-    count_ = 0;
+    std::vector<std::vector<T>> all;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      all.swap(full_);
+      open_ = {};
+      count_ = 0;
+    }
+    parallel_ranges(all.size(), kPartsATask, [&](std::size_t first, std::size_t last) {
+      for (; first < last; ++first) all[first] = {};
+    });
   }
 
   // Appends all items to `out`, ascending by key(item), a std::uint64_t that no two share, and is empty then.
@@ -168,6 +180,8 @@ class Parts {
       radix_sort(first, scratch.get(), count, key, stop);
     }
   };
+
+  static constexpr std::size_t kPartsATask = 64;
 
   mutable std::mutex mutex_;
   std::vector<std::vector<T>> full_;

@@ -22,7 +22,8 @@ template <class F>
 bool each_unless(const Stop& stop, std::size_t first, std::size_t last, F&& f) {
   while (first < last) {
     if (stop.requested()) return false;
-    for (const std::size_t end = last - first < kItemsALook ? last : first + kItemsALook; first < end; ++first)
+    for (const std::size_t end = last - first < kItemsALook ? last : first + kItemsALook; first < end;
+         ++first)
       f(first);
   }
   return true;

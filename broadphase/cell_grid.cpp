@@ -33,14 +33,14 @@ CellGrid::Corner CellGrid::corner(const std::array<float, 3>& point) const {
   return c;
 }
 
-bool CellGrid::fits(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit) const {
-  std::size_t total = 0;
+bool CellGrid::fits(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit) {
+  covered_ = 0;
   for (const auto* set : sets)
     for (const FloatBox& b : *set) {
       const Corner lo = corner(b.lo), hi = corner(b.hi);
       std::size_t cells = 1;
       for (std::size_t i = 0; i < 3; ++i) cells *= hi[i] - lo[i] + 1;  // at most 2^60
-      if ((total += cells) > limit) return false;
+      if ((covered_ += cells) > limit) return false;
     }
   return true;
 }

@@ -34,6 +34,9 @@ class CellGrid {
 
   std::uint64_t cell(const std::array<float, 3>& point) const { return number(corner(point)); }
 
+  // Returns how many cells are covered in all, each once for every box that covers it.
+  std::size_t covered() const { return covered_; }
+
  private:
   static constexpr int kBits = 20;
   using Corner = std::array<std::uint32_t, 3>;
@@ -42,9 +45,10 @@ class CellGrid {
     return std::uint64_t(c[0]) | std::uint64_t(c[1]) << kBits | std::uint64_t(c[2]) << 2 * kBits;
   }
   Corner corner(const std::array<float, 3>& point) const;
-  bool fits(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit) const;
+  bool fits(const std::vector<const std::vector<FloatBox>*>& sets, std::size_t limit);
 
   double cells_per_unit_ = 1;
+  std::size_t covered_ = 0;
 };
 
 }  // namespace onset

@@ -62,6 +62,7 @@ class Cells {
         self_(self),
         grid_(self ? std::vector{&first} : std::vector{&first, &second},
               kEntriesEach * (first.size() + (self ? 0 : second.size())), stop) {
+    if (!stop.requested()) entries_.reserve(grid_.covered());
     for (int side = 0; side < (self ? 1 : 2); ++side)
       each_unless(stop, 0, sides_[side]->size(), [&](std::size_t id) {
         grid_.visit((*sides_[side])[id], [&](std::uint64_t cell) {
