@@ -12,7 +12,7 @@ namespace onset {
 namespace {
 
 // Cuts off what the window and the memory limit exclude, in the order (toi, kind, a, b).
-void cut_off(std::vector<FoundPair>& found, const Options& options, const Budget& budget, ActiveSet& set) {
+void cut_off(std::vector<FoundPair>& found, const Options& options, Budget& budget, ActiveSet& set) {
   set.complete_until = std::numeric_limits<double>::infinity();
   set.outcome = budget.outcome();
   if (!found.empty() && options.window < 1) {
@@ -23,14 +23,12 @@ void cut_off(std::vector<FoundPair>& found, const Options& options, const Budget
                                [&](const FoundPair& f) { return f.result.toi > set.complete_until; }),
                 found.end());
   }
-  if (const std::size_t most = most_contacts(options); found.size() > most) {
-    std::nth_element(found.begin(), found.begin() + std::ptrdiff_t(most), found.end(), earlier);
-    set.complete_until = found[most].result.toi;
+  if (found.size() > most_contacts(options)) {  // by one, which says until when the others are all
+    const auto latest = std::max_element(found.begin(), found.end(), earlier);
+    set.complete_until = latest->result.toi;
     if (set.outcome == Outcome::free) set.outcome = Outcome::out_of_memory;
-    found.resize(most);
-    std::sort(found.begin(), found.end(), before);
+    found.erase(latest);
   }
-  if (budget.outcome() != Outcome::free) set.complete_until = 0;
 }
 
 }  // namespace
@@ -49,8 +47,12 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     const double begun = setup.clock.seconds();
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);
-    if (budget.outcome() != Outcome::free) set.stats.looked_at = budget.done();
-    fill_contacts(mesh, setup.motion, options.instruction_set, traversal.found, set);
+    fill_contacts(mesh, setup.motion, options.instruction_set, traversal.found, budget.interruption(), set);
+    if (budget.outcome() != Outcome::free) {
+      set.outcome = budget.outcome();
+      set.complete_until = 0;
+      set.stats.looked_at = budget.done();
+    }
     if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
     set.stats.seconds_total = setup.clock.seconds();
     set.stats.seconds_contacts = set.stats.seconds_total - begun;

@@ -12,8 +12,6 @@
 namespace onset {
 namespace {
 
-using Ids = std::vector<std::array<int, 2>>;
-
 // What is done with the candidates of a step besides counting them.
 struct Use {
   const CandidateVisitor* visitor = nullptr;
@@ -33,29 +31,37 @@ class CandidateList {
         room_(use.list ? options.memory_limit / std::int64_t(sizeof(IdPair)) : 0) {}
 
   void take(PairKind kind) {
-    Ids& listed = kind == PairKind::vertex_face ? result_.vertex_face : result_.edge_edge;
     std::int64_t& count =
         kind == PairKind::vertex_face ? result_.counts.vertex_face : result_.counts.edge_edge;
     const auto visit = [&](Task& task, const IdPair* pairs, std::size_t n) { take(kind, pairs, n, task); };
     const auto merge = [&](Task& task) {
       count += task.count;
-      listed.insert(listed.end(), task.ids.begin(), task.ids.end());
+      parts_[std::size_t(kind)].add(task.ids);
     };
     visit_pairs(*setup_.broad, kind, kBlocksATask, Task{}, budget_, visit, merge, [] { return false; });
-    parallel_sort(listed.begin(), listed.end(), [](const auto& p, const auto& q) { return p < q; });
+    if (too_many() || budget_.outcome() != Outcome::free)
+      for (Parts<IdRow>& of_kind : parts_) of_kind.clear();
+  }
+  // Puts what was listed in order, unless the budget ends that.
+  void sort() {
+    const Stop stop = budget_.stop();
+    const auto key = [](const IdRow& ids) { return std::uint64_t(ids[0]) << 32 | std::uint64_t(ids[1]); };
+    if (stop.requested() || !parts_[0].sort_into(result_.vertex_face, key, stop)) return;
+    parts_[1].sort_into(result_.edge_edge, key, stop);
   }
   // Says whether the list would not fit; nothing more is then listed.
   bool too_many() const { return room_ < 0; }
 
  private:
   static constexpr std::size_t kBlocksATask = 64;
+  using IdRow = std::array<int, 2>;
   struct Task {
     std::int64_t count = 0;
-    Ids ids;  // listed, or about to be visited
+    std::vector<IdRow> ids;  // listed, or about to be visited
   };
 
   void take(PairKind kind, const IdPair* pairs, std::size_t n, Task& task) {
-    Ids& out = task.ids;
+    std::vector<IdRow>& out = task.ids;
     const std::size_t before = out.size();
     const bool lists = use_.list ? room_ >= 0 : use_.visitor != nullptr;
     for (std::size_t i = 0; i < n; ++i) {
@@ -64,6 +70,7 @@ class CandidateList {
       if (lists) out.push_back({pairs[i].a, pairs[i].b});
     }
     if (use_.list && (room_ -= std::int64_t(out.size() - before)) < 0) out.clear();
+    if (out.size() >= Parts<IdRow>::kPart) parts_[std::size_t(kind)].add(out);
     if (use_.visitor == nullptr) return;
     if (!out.empty()) (*use_.visitor)(kind, out.data(), out.size());
     out.clear();
@@ -75,6 +82,7 @@ class CandidateList {
   Budget& budget_;
   Candidates& result_;
   std::atomic<std::int64_t> room_;
+  std::array<Parts<IdRow>, 2> parts_;
 };
 
 Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
@@ -94,6 +102,7 @@ Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& 
       list.take(PairKind::vertex_face);
       list.take(PairKind::edge_edge);
     }
+    if (!list.too_many()) list.sort();
     c.outcome = list.too_many() ? Outcome::out_of_memory : budget.outcome();
     if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = {};
     if (budget.outcome() != Outcome::free) c.stats.looked_at = budget.done();

@@ -4,6 +4,7 @@
 
 #include "base/clock.hpp"
 #include "base/instruction_set.hpp"
+#include "base/radix_sort.hpp"
 #include "narrowphase/at_rest/edge_face.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/start/places.hpp"
@@ -18,15 +19,16 @@ namespace {
 struct Use {
   std::vector<bool> used, meets;
 
-  explicit Use(const MeshData& mesh) : used(std::size_t(mesh.num_vertices)), meets(used) {
+  // Not all are marked where it is stopped.
+  Use(const MeshData& mesh, const Stop& stop) : used(std::size_t(mesh.num_vertices)), meets(used) {
     for (const Primitive kind : {Primitive::edge, Primitive::face})
-      for (std::size_t id = 0; id < primitive_count(mesh, kind); ++id) {
+      each_unless(stop, 0, primitive_count(mesh, kind), [&](std::size_t id) {
         const bool still = is_static(mesh, kind, int(id));
         for (const int v : primitive_vertices(mesh, kind, int(id))) {
           used[std::size_t(v)] = true;
           if (!still) meets[std::size_t(v)] = true;
         }
-      }
+      });
   }
 };
 
@@ -50,27 +52,33 @@ bool never_meet(const MeshData& mesh, const Use& use, int v, int w) {
                             std::array<int, 2>{std::min(b, c), std::max(b, c)});
 }
 
-void list_copies(const MeshData& mesh, const Use& use, const Positions& x, StartReport& report) {
+void list_copies(const MeshData& mesh, const Use& use, const Positions& x, Budget& budget,
+                 StartReport& report) {
   if (mesh.weld) return;
-  for (std::vector<int> here : shared_places(x)) {
+  const Stop stop = budget.stop();
+  for (std::vector<int> here : shared_places(x, stop)) {
     here.erase(std::remove_if(here.begin(), here.end(), [&](int v) { return !use.used[std::size_t(v)]; }),
                here.end());
-    for (std::size_t j = 1; j < here.size(); ++j)
-      for (std::size_t i = 0; i < j; ++i)
-        if (!joined(mesh, here[i], here[j]) && !never_meet(mesh, use, here[i], here[j])) {
-          report.copied_vertices.push_back({here[i], here[j]});
-          break;
-        }
+    for (std::size_t j = 1; j < here.size(); ++j) {
+      const auto meets = [&](int v) {
+        return !joined(mesh, v, here[j]) && !never_meet(mesh, use, v, here[j]);
+      };
+      if (stop.requested()) break;
+      const auto end = here.begin() + std::ptrdiff_t(j), first = std::find_if(here.begin(), end, meets);
+      if (first != end) report.copied_vertices.push_back({*first, here[j]});
+    }
   }
-  std::sort(report.copied_vertices.begin(), report.copied_vertices.end());
+  radix_sort(report.copied_vertices, [](const std::array<int, 2>& pair) {
+    return std::uint64_t(pair[0]) << 32 | std::uint64_t(pair[1]);
+  });
 }
 
-void list_faces(const MeshData& mesh, const Motion& motion, StartReport& report) {
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+void list_faces(const MeshData& mesh, const Motion& motion, Budget& budget, StartReport& report) {
+  each_unless(budget.stop(), 0, mesh.faces.size(), [&](std::size_t f) {
     const auto& [a, b, c] = mesh.faces[f];
     if (exactly_collinear(motion.t0(a), motion.t0(b), motion.t0(c)))
       report.faces_without_area.push_back(int(f));
-  }
+  });
 }
 
 std::size_t most(const Options& options, std::size_t bytes) {
@@ -114,13 +122,13 @@ StartReport check(const Mesh& mesh, const Positions& x, const Options& options) 
     Budget budget(options);
     Rest rest(mesh, x);
     report.vertex = rest.motion.bad_vertex;
-    const Use use(mesh.data());
-    for (std::size_t v = 0; v < use.used.size(); ++v)
+    const Use use(mesh.data(), budget.stop());
+    report.outcome = rest.outcome(budget);
+    for (std::size_t v = 0; v < use.used.size() && budget.outcome() == Outcome::free; ++v)
       if (!use.used[v]) report.unused_vertices.push_back(int(v));
-    report.outcome = rest.motion.status;
-    if (rest.motion.status == Outcome::free) {
-      list_copies(mesh.data(), use, x, report);
-      list_faces(mesh.data(), rest.motion, report);
+    if (report.outcome == Outcome::free) {
+      list_copies(mesh.data(), use, x, budget, report);
+      list_faces(mesh.data(), rest.motion, budget, report);
       list_pairs(mesh, options, budget, rest, report);
     }
     report.findings = start_findings(mesh, report);

@@ -59,15 +59,14 @@ Intersections find(const Mesh& mesh, const Positions& x, const Options& options,
 Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, std::size_t most,
                                           Budget& budget) {
   const MeshData& data = mesh.data();
-  auto all = gather<Intersection>(
+  return gather<Intersection>(
       *rest.broad, {kEdgeFace}, most, budget,
       [&](PairKind, const IdPair* pairs, std::size_t count, std::vector<Intersection>& found) {
         for (std::size_t i = 0; i < count; ++i) add_if_common(data, rest.motion, pairs[i], found);
+      },
+      [](const Intersection& p) {
+        return IdPair{p.edge, p.face};
       });
-  parallel_sort(all.found.begin(), all.found.end(), [](const Intersection& p, const Intersection& q) {
-    return p.edge != q.edge ? p.edge < q.edge : p.face < q.face;
-  });
-  return all;
 }
 
 const char* to_string(IntersectionKind kind) {

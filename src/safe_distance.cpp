@@ -43,14 +43,29 @@ void check_close(const Mesh& mesh, const ClosePairs& close) {
 
 double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0), dx(v, 1), dx(v, 2)); }
 
+// docs/theory.md, L49 proves the bound. kStoring (scene/motion/storing.hpp) times the largest coordinate, or
+// d_hat if that is more, covers storing; 1 - 2^-48 covers relative errors and makes the bound strict; 2^-1072
+// covers half of a subnormal gap.
+std::vector<double> distances_by_gaps(const Positions& x, const ClosePairs& close) {
+  std::vector<double> r(std::size_t(x.rows()), close.d_hat);
+  for (const ClosePair& p : close)
+    for (const int v : p.vertices) r[std::size_t(v)] = std::min(r[std::size_t(v)], p.gap);
+  double largest = close.d_hat;
+  for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
+    for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x(v, a)));
+  const double rounding = kStoring * largest;  // for any order of operations
+  for (double& of_vertex : r)
+    of_vertex = std::max(0.0, (0.5 * of_vertex * (1 - 0x1p-48) - rounding) * (1 - 0x1p-52) - 0x1p-1072);
+  return r;
+}
+
 // Returns the step that docs/theory.md, L49 gives without a look at any pair: distances fall by at most the
 // rest of the gap that is not kept. dx is off by a rounding, which the factor in safe_step covers.
-double step_by_gaps(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const ClosePairs& close,
-                    double gap_share) {
+double step_by_gaps(const Positions& x_t0, const Positions& x_t1, const ClosePairs& close, double gap_share) {
   std::vector<double> dx;
   for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
     for (int a = 0; a < 3; ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
-  std::vector<double> r = safe_distances(mesh, x_t0, close);
+  std::vector<double> r = distances_by_gaps(x_t0, close);
   if (gap_share > 0)
     for (double& of_vertex : r) of_vertex *= (1 - gap_share) * (1 - 0x1p-50);
   return safe_step(r, Positions(dx.data(), x_t0.rows()));
@@ -85,23 +100,11 @@ int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) 
 
 }  // namespace
 
-// docs/theory.md, L49 proves the bound. kStoring (scene/motion/storing.hpp) times the largest coordinate, or
-// d_hat if that is more, covers storing; 1 - 2^-48 covers relative errors and makes the bound strict; 2^-1072
-// covers half of a subnormal gap.
 std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close) {
   const FloatEnvironment environment;
   check_rows("x", x, mesh.num_vertices());
   check_close(mesh, close);
-  std::vector<double> r(std::size_t(mesh.num_vertices()), close.d_hat);
-  for (const ClosePair& p : close)
-    for (const int v : p.vertices) r[std::size_t(v)] = std::min(r[std::size_t(v)], p.gap);
-  double largest = close.d_hat;
-  for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
-    for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x(v, a)));
-  const double rounding = kStoring * largest;  // for any order of operations
-  for (double& of_vertex : r)
-    of_vertex = std::max(0.0, (0.5 * of_vertex * (1 - 0x1p-48) - rounding) * (1 - 0x1p-52) - 0x1p-1072);
-  return r;
+  return distances_by_gaps(x, close);
 }
 
 double safe_step(const std::vector<double>& r, const Positions& dx) {
@@ -121,11 +124,11 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
   const FloatEnvironment environment;
   check(options);
   check_gap_share(gap_share);
-  check_close(mesh, close);
   StepResult r;
   in_arena(options.threads, [&] {
     const Clock clock;
     Budget budget(options);
+    check_close(mesh, close);
     const Motion motion = make_motion(mesh.data(), x_t0, x_t1);
     PairList listed;
     for (const ClosePair& p : close)
@@ -140,7 +143,7 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
       r.limiting.reset();
       r.vertex = torn;
     } else if (budget.outcome() != Outcome::free) {
-      r.step = step_by_gaps(mesh, x_t0, x_t1, close, gap_share);
+      r.step = step_by_gaps(x_t0, x_t1, close, gap_share);
       if (r.step == 1) r.outcome = Outcome::free;
       r.toi = r.step == 1 ? INFINITY : r.step;
     } else {

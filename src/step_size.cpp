@@ -39,14 +39,15 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
                               std::to_string(row) + ": " + why);
 }
 
-std::vector<IdPair> checked(const MeshData& mesh, PairKind kind,
-                            const std::vector<std::array<int, 2>>& list) {
+// Checks the rows up to where the budget ends, if it does.
+std::vector<IdPair> checked(const MeshData& mesh, PairKind kind, const std::vector<std::array<int, 2>>& list,
+                            Budget& budget) {
   const bool vf = kind == PairKind::vertex_face;
   const int firsts = vf ? mesh.num_vertices : int(mesh.edges.size());
   const int seconds = int(vf ? mesh.faces.size() : mesh.edges.size());
   std::vector<IdPair> pairs;
   pairs.reserve(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) {
+  each_unless(budget.stop(), 0, list.size(), [&](std::size_t i) {
     IdPair p{list[i][0], list[i][1]};
     if (p.a < 0 || p.a >= firsts || p.b < 0 || p.b >= seconds)
       reject(kind, i, "the mesh has no pair " + std::to_string(p.a) + ", " + std::to_string(p.b));
@@ -56,7 +57,7 @@ std::vector<IdPair> checked(const MeshData& mesh, PairKind kind,
       if (v[0] == v[std::size_t(k)] || (!vf && v[1] == v[std::size_t(k)]))
         reject(kind, i, "the two share vertex " + std::to_string(v[std::size_t(k)]));
     if (may_meet(mesh, kind, p.a, p.b)) pairs.push_back(p);
-  }
+  });
   return pairs;
 }
 
@@ -86,13 +87,14 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
   if (candidates.outcome != Outcome::free)
     throw std::invalid_argument(std::string("candidates ended with ") + to_string(candidates.outcome) +
                                 ": they are not complete");
-  PairList pairs;
-  pairs.of(PairKind::vertex_face) = checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face);
-  pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge);
   StepResult r;
   in_arena(options.threads, [&] {
     const Clock clock;
     Budget budget(options);
+    PairList pairs;
+    pairs.of(PairKind::vertex_face) =
+        checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face, budget);
+    pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge, budget);
     r = step_of_pairs(mesh, make_motion(mesh.data(), x_t0, x_t1), pairs, options, gap_share, budget);
     r.stats.seconds_total = clock.seconds();
   });

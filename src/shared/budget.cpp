@@ -2,16 +2,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
 
 namespace onset {
+namespace {
 
-Budget::Budget(const Options& options) : options_(options) { report(); }
+// Progress is reported when a task is done, and otherwise once it was not for so many seconds.
+constexpr double kReportEvery = 0.01;
+
+}  // namespace
+
+Budget::Budget(const Options& options)
+    : options_(options), watched_(std::isfinite(options.time_limit) || options.progress) {
+  report();
+}
 
 bool Budget::spent() {
-  if (outcome() == Outcome::free && std::isfinite(options_.time_limit) &&
-      clock_.seconds() >= options_.time_limit)
-    end(Outcome::out_of_time);
+  look();
   return outcome() != Outcome::free;
+}
+
+bool Budget::interrupted() {
+  look();
+  return interrupted_.load(std::memory_order_relaxed);
+}
+
+Stop Budget::stop() {
+  if (!watched_) return {};
+  return {this, [](void* budget) { return static_cast<Budget*>(budget)->spent(); }};
+}
+
+Stop Budget::interruption() {
+  if (!watched_) return {};
+  return {this, [](void* budget) { return static_cast<Budget*>(budget)->interrupted(); }};
+}
+
+void Budget::look() {
+  if (!watched_ || interrupted_.load(std::memory_order_relaxed)) return;
+  const double now = clock_.seconds();
+  if (now >= options_.time_limit)
+    interrupt(Outcome::out_of_time);
+  else if (options_.progress && now - reported_at_.load(std::memory_order_relaxed) >= kReportEvery)
+    report();
 }
 
 void Budget::look_at_checks() {
@@ -19,8 +53,6 @@ void Budget::look_at_checks() {
 }
 
 bool Budget::counts_checks() const { return options_.check_limit < std::numeric_limits<std::int64_t>::max(); }
-
-bool Budget::is_watched() const { return std::isfinite(options_.time_limit) || options_.progress; }
 
 void Budget::begin_traversal(std::size_t blocks) {
   blocks_ = blocks;
@@ -34,15 +66,23 @@ void Budget::advance(std::size_t blocks) {
 
 double Budget::done() const { return blocks_ > 0 ? double(blocks_done_) / double(blocks_) : 0; }
 
-// This is not a mutex: a thread that comes while another reports goes on working, and a callback that runs
-// parallel work of its own may be given a task of this call, which would wait for itself.
+// This is not a mutex: a thread that comes while another reports goes on working. The arena keeps tasks of
+// this call from a thread that waits for parallel work of the callback's own.
 void Budget::report() {
-  if (!options_.progress || outcome() != Outcome::free || reporting_.test_and_set()) return;
+  if (!options_.progress || interrupted_.load(std::memory_order_relaxed) || reporting_.test_and_set()) return;
   struct Release {
     std::atomic_flag& flag;
     ~Release() { flag.clear(); }
   } release{reporting_};
-  if (!options_.progress(done())) end(Outcome::cancelled);
+  bool goes_on = true;
+  in_arena(0, [&] { goes_on = options_.progress(done()); });
+  if (!goes_on) interrupt(Outcome::cancelled);
+  reported_at_.store(clock_.seconds(), std::memory_order_relaxed);
+}
+
+void Budget::interrupt(Outcome why) {
+  end(why);
+  interrupted_.store(true, std::memory_order_relaxed);
 }
 
 // The first reason to end stands.

@@ -6,12 +6,14 @@
 #include <cstdint>
 
 #include "base/clock.hpp"
+#include "base/stop.hpp"
 #include "onset/options.hpp"
 #include "onset/result.hpp"
 
 namespace onset {
 
-// The budget of one call. Any thread may ask it.
+// The budget of one call. Any thread may ask it, which calls the caller's progress when that is due: not
+// while a lock is held.
 class Budget {
  public:
   // Calls Options::progress with 0.
@@ -19,6 +21,13 @@ class Budget {
 
   // Says whether the call must end; looks at the clock.
   bool spent();
+  // Says whether time or the caller ended the call, whatever the checks say: nothing more may then be done to
+  // what was found. Looks at the clock.
+  bool interrupted();
+  // Ask spent() and interrupted(); never where neither time nor the caller can end the call.
+  Stop stop();
+  Stop interruption();
+
   // Begin a traversal of so many blocks of pairs, and say that so many more are done, which reports progress.
   void begin_traversal(std::size_t blocks);
   void advance(std::size_t blocks);
@@ -29,22 +38,27 @@ class Budget {
 
   bool counts_checks() const;
   // Says whether time or the caller can end the call: pairs then come a few at a time.
-  bool is_watched() const;
+  bool is_watched() const { return watched_; }
   // Returns why the call must end; free while it need not.
   Outcome outcome() const { return outcome_.load(std::memory_order_relaxed); }
   // Returns the share of the last traversal that is done, in [0, 1].
   double done() const;
 
  private:
+  void look();
   void end(Outcome why);
+  void interrupt(Outcome why);
   void report();
 
   const Options& options_;
   const Clock clock_;
+  const bool watched_;
   std::atomic<Outcome> outcome_{Outcome::free};
+  std::atomic<bool> interrupted_{false};
   std::int64_t checks_ = 0;
   std::atomic<std::size_t> blocks_{0}, blocks_done_{0};
   std::atomic_flag reporting_ = ATOMIC_FLAG_INIT;
+  std::atomic<double> reported_at_{0};
 };
 
 }  // namespace onset

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 
 #include "base/float_environment.hpp"
 #include "base/text_stream.hpp"
@@ -73,11 +72,11 @@ Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& i
       candidates, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
       [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<ClosePair>& close) {
         for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
+      },
+      [](const ClosePair& p) {
+        return IdPair{p.a, p.b};
       });
-  if (budget.outcome() != Outcome::free) all.found.clear();
-  parallel_sort(all.found.begin(), all.found.end(), [](const ClosePair& p, const ClosePair& q) {
-    return std::tie(p.kind, p.a, p.b) < std::tie(q.kind, q.a, q.b);
-  });
+  if (budget.outcome() != Outcome::free) all.found = {};
   return all;
 }
 

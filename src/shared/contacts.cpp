@@ -8,7 +8,7 @@
 namespace onset {
 namespace {
 
-constexpr std::size_t kRowsATask = 512, kRowsAtOnce = 64;
+constexpr std::size_t kRowsALook = 1 << 15, kRowsATask = 512, kRowsAtOnce = 64;
 
 // Adds the geometry of contacts [first, last), which are of one kind and at most kRowsAtOnce.
 void fill_geometry(const Motion& motion, InstructionSet instruction_set, Contact* first, Contact* last) {
@@ -39,24 +39,32 @@ void put(const ContactGeometry& geometry, Contact& contact) {
 }
 
 void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instruction_set,
-                   const std::vector<FoundPair>& found, ActiveSet& set) {
-  const auto of_faces = std::partition_point(
-      found.begin(), found.end(), [](const FoundPair& f) { return f.kind == PairKind::vertex_face; });
-  const auto faces = std::size_t(of_faces - found.begin());
-  set.stats.contacts = {std::int64_t(faces), std::int64_t(found.size() - faces)};
-  set.contacts.resize(found.size());
-  parallel_ranges(found.size(), kRowsATask, [&](std::size_t first, std::size_t last) {
-    Contact* contacts = set.contacts.data();
-    for (std::size_t i = first; i < last; ++i) {
-      static_cast<Pair&>(contacts[i]) = to_pair(mesh, found[i]);
-      put(found[i].result, contacts[i]);
-    }
-    while (first < last) {
-      const std::size_t end = std::min({first + kRowsAtOnce, last, first < faces ? faces : last});
-      fill_geometry(motion, instruction_set, contacts + first, contacts + end);
-      first = end;
-    }
-  });
+                   const std::vector<FoundPair>& found, const Stop& stop, ActiveSet& set) {
+  const auto is_of_face = [](const auto& pair) { return pair.kind == PairKind::vertex_face; };
+  const auto faces_of = [&](const auto& pairs) {
+    return std::size_t(std::partition_point(pairs.begin(), pairs.end(), is_of_face) - pairs.begin());
+  };
+  const std::size_t faces = faces_of(found);
+  set.contacts.reserve(found.size());
+  while (set.size() < found.size() && !stop.requested()) {
+    const std::size_t before = set.size();
+    set.contacts.resize(std::min(before + kRowsALook, found.size()));
+    parallel_ranges(set.size() - before, kRowsATask, [&](std::size_t first, std::size_t last) {
+      Contact* contacts = set.contacts.data();
+      first += before, last += before;
+      for (std::size_t i = first; i < last; ++i) {
+        static_cast<Pair&>(contacts[i]) = to_pair(mesh, found[i]);
+        put(found[i].result, contacts[i]);
+      }
+      while (first < last) {
+        const std::size_t end = std::min({first + kRowsAtOnce, last, first < faces ? faces : last});
+        fill_geometry(motion, instruction_set, contacts + first, contacts + end);
+        first = end;
+      }
+    });
+  }
+  const std::size_t done = faces_of(set.contacts);
+  set.stats.contacts = {std::int64_t(done), std::int64_t(set.size() - done)};
 }
 
 }  // namespace onset

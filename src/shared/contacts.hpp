@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/stop.hpp"
 #include "narrowphase/distance/contact_geometry.hpp"
 #include "onset/active_set.hpp"
 #include "scene/motion/motion.hpp"
@@ -14,8 +15,9 @@ namespace onset {
 void put(const PairResult& result, Contact& contact);
 void put(const ContactGeometry& geometry, Contact& contact);
 
-// Makes contact i of `set` from found[i], which are sorted by `before`, and counts those of each kind.
+// Makes contact i of `set` from found[i], which are sorted by `before`, and counts those of each kind. Where
+// it is stopped, only the first of these.
 void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instruction_set,
-                   const std::vector<FoundPair>& found, ActiveSet& set);
+                   const std::vector<FoundPair>& found, const Stop& stop, ActiveSet& set);
 
 }  // namespace onset

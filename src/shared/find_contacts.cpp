@@ -43,17 +43,20 @@ double shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& na
                                                    : *setup.tree;
   shrunk.t_max = t_max;
   shrunk.test = BoxTest::both_ends;
-  setup.broad->refit(shrunk);
+  setup.broad->refit(shrunk, budget.stop());
   return t_max;
 }
 
 // Makes the times of those exact that can be the earliest: no other is before the least toi_hi.
-void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found) {
+void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found, Budget& budget) {
   double latest = INFINITY;
   for (const FoundPair& f : found)
     if (f.result.outcome != PairOutcome::initial_separating) latest = std::min(latest, f.result.toi_hi);
   for (FoundPair& f : found)
-    if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) narrow.sharpen(f.kind, f.result);
+    if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) {
+      if (budget.interrupted()) return;
+      narrow.sharpen(f.kind, f.result);
+    }
 }
 
 // Keeps one contact more than fits where there is a limit: it tells until when the set is complete.
@@ -102,7 +105,7 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   if (t_max <= kShrinksUpTo) limits.whole = &*setup.tree;
   TraversalResult traversal = traverse_pairs(*setup.broad, narrow, collect, t_max, budget, 1, limits);
   if (collect == Collect::first) traversal.limits.add(sampled);
-  if (collect == Collect::all) sharpen_earliest(narrow, traversal.found);
+  if (collect == Collect::all) sharpen_earliest(narrow, traversal.found, budget);
   copy_counts(traversal, stats);
   stats.seconds_narrow = setup.clock.seconds() - begun;
   stats.seconds_total = setup.clock.seconds();

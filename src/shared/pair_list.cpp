@@ -39,35 +39,31 @@ bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, st
     std::vector<std::vector<IdPair>> kept;
   };
   const Task initial{{}, std::vector<std::vector<IdPair>>(lists.size())};
+  const auto key = [](const IdPair& p) { return std::uint64_t(p.a) << 32 | std::uint64_t(p.b); };
   std::atomic<std::int64_t> room{most};
   const auto ended = [&] { return room < 0; };
   budget.begin_traversal(broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge));
   for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
+    std::vector<Parts<IdPair>> parts(lists.size());
     const auto cull = [&](Task& task, const IdPair* pairs, std::size_t count) {
       for (std::size_t i = 0; i < lists.size(); ++i) {
-        const std::size_t before = task.kept[i].size();
-        lists[i].narrow.cull(kind, pairs, count, task.scratch, task.kept[i]);
-        room -= std::int64_t(task.kept[i].size() - before);
+        std::vector<IdPair>& kept = task.kept[i];
+        const std::size_t before = kept.size();
+        lists[i].narrow.cull(kind, pairs, count, task.scratch, kept);
+        room -= std::int64_t(kept.size() - before);
+        if (kept.size() >= Parts<IdPair>::kPart) parts[i].add(kept);
       }
     };
-    const auto merge = [&](const Task& task) {
-      for (std::size_t i = 0; i < lists.size() && room >= 0; ++i) {
-        std::vector<IdPair>& all = lists[i].list.of(kind);
-        all.insert(all.end(), task.kept[i].begin(), task.kept[i].end());
-      }
+    const auto merge = [&](Task& task) {
+      for (std::size_t i = 0; i < lists.size(); ++i) parts[i].add(task.kept[i]);
     };
     visit_pairs(broad, kind, kBlocksATask, initial, budget, cull, merge, ended);
-    if (room < 0) break;
-    for (const CulledList& culled : lists) {
-      std::vector<IdPair>& all = culled.list.of(kind);
-      parallel_sort(all.begin(), all.end(),
-                    [](const IdPair& p, const IdPair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
-      all.shrink_to_fit();
-    }
+    for (std::size_t i = 0; i < lists.size() && room >= 0 && !budget.spent(); ++i)
+      parts[i].sort_into(lists[i].list.of(kind), key, budget.stop());
   }
-  if (room < 0)
-    for (const CulledList& culled : lists) culled.list = PairList();
-  return room >= 0;
+  if (room >= 0 && budget.outcome() == Outcome::free) return true;
+  for (const CulledList& culled : lists) culled.list = PairList();
+  return false;
 }
 
 StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList& pairs,

@@ -36,7 +36,7 @@ struct CulledList {
 };
 
 // Fills all lists in one traversal of `broad`, each in the order of ids. Returns false, and leaves the lists
-// empty, where they would hold more than `most` pairs in all. It ends early where the budget is spent.
+// empty, where they would hold more than `most` pairs in all or the budget is spent.
 bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, std::int64_t most,
                Budget& budget);
 

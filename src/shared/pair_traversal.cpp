@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "base/assert.hpp"
+#include "base/clock.hpp"
 #include "base/parallel.hpp"
-#include "base/radix_sort.hpp"
 #include "broadphase/motion_box.hpp"
 #include "scene/pair_source.hpp"
 
@@ -15,48 +15,14 @@ namespace {
 
 constexpr std::size_t kBlocksATask = 16;
 
-// One number orders pairs as (kind, a, b) does, since ids are not negative.
-std::uint64_t order(PairKind kind, IdPair pair) {
-  return std::uint64_t(kind == PairKind::edge_edge) << 63 | std::uint64_t(pair.a) << 32 |
-         std::uint64_t(pair.b);
-}
-PairKind kind_of(std::uint64_t order) { return order >> 63 ? PairKind::edge_edge : PairKind::vertex_face; }
-
-constexpr std::size_t kFewPairs = 2000;  // so few are sorted faster by comparing
-
-// What one task found.
-struct Part {
-  PairKind kind;
-  std::vector<PairResult> results;
-};
-
-// Sorts sixteen bytes a pair and moves each result once.
-std::vector<FoundPair> sorted(const std::vector<Part>& parts, std::size_t count) {
-  struct Place {
-    std::uint64_t order;
-    const PairResult* result;
-  };
-  std::vector<Place> places;
-  places.reserve(count);
-  for (const Part& part : parts)
-    for (const PairResult& result : part.results) places.push_back({order(part.kind, result.pair), &result});
-  if (count < kFewPairs)
-    std::sort(places.begin(), places.end(), [](const Place& x, const Place& y) { return x.order < y.order; });
-  else
-    radix_sort(places, [](const Place& p) { return p.order; });
-  ONSET_ASSERT(places.size() == count);
-  std::vector<FoundPair> r;
-  r.reserve(count);
-  for (const Place& p : places) r.push_back({kind_of(p.order), *p.result});
-  return r;
-}
-
 // With a budget of checks, work comes in waves of so many blocks. What a wave does depends only on those
 // before it, so that it is the same for any number of threads.
 constexpr std::size_t kFirstWave = 16, kLargestWave = 1024;
-// So many pairs pass between two looks at a budget that time or the caller can end.
+// So many pairs pass between two looks at a budget that time or the caller can end; a single one where so
+// many took longer than kSlowSeconds.
 constexpr std::size_t kWatchedPairs = 16;
-// Where only the earliest contacts are kept, a task hands over its results when it holds so many.
+constexpr double kSlowSeconds = 0.002;
+// Where all are kept, a task hands over its results when it holds so many.
 constexpr std::size_t kHeldByATask = 1024;
 
 class PairTraversal {
@@ -71,7 +37,8 @@ class PairTraversal {
         bounds_(bounds),
         first_t_max_(t_max),
         t_max_(t_max),
-        wave_t_max_(t_max) {
+        wave_t_max_(t_max),
+        found_(bounds.most) {
     budget.begin_traversal(count(PairKind::vertex_face) + count(PairKind::edge_edge));
   }
 
@@ -90,7 +57,7 @@ class PairTraversal {
     }
   }
 
-  std::vector<FoundPair> take() { return sorted(parts_, held_); }
+  std::vector<FoundPair> take() { return found_.take(budget_); }
   const Limits& limits() const { return limits_; }
 
  private:
@@ -102,11 +69,27 @@ class PairTraversal {
     std::vector<PairResult> results;  // where all are kept
     Limits limits;
 
+    static bool asked(void* context) { return static_cast<Task*>(context)->traversal.ended(); }
     static void consume(void* context, const IdPair* pairs, std::size_t count) {
       auto& task = *static_cast<Task*>(context);
-      const std::size_t step = task.traversal.budget_.is_watched() ? kWatchedPairs : count;
-      for (std::size_t i = 0; i < count && !task.traversal.ended(); i += step)
-        task.process(pairs + i, std::min(step, count - i));
+      if (task.traversal.budget_.is_watched())
+        task.process_slowly(pairs, count);
+      else if (!task.traversal.ended())
+        task.process(pairs, count);
+    }
+    PairSink sink() {
+      const bool asks = traversal.budget_.is_watched() || traversal.collect_ == Collect::any;
+      return {this, &Task::consume, asks ? Stop{this, &Task::asked} : Stop{}};
+    }
+    void process_slowly(const IdPair* pairs, std::size_t count) {
+      for (std::size_t i = 0, next; i < count && !traversal.ended(); i = next) {
+        const bool slow = traversal.slow_.load(std::memory_order_relaxed);
+        next = std::min(i + (slow ? 1 : kWatchedPairs), count);
+        const Clock clock;
+        process(pairs + i, next - i);
+        const bool now = clock.seconds() * double(slow ? kWatchedPairs : 1) > kSlowSeconds;
+        if (now != slow) traversal.slow_.store(now, std::memory_order_relaxed);
+      }
     }
     void process(const IdPair* pairs, std::size_t count) {
       ONSET_ASSERT(count <= kBatchSize);
@@ -121,7 +104,7 @@ class PairTraversal {
         traversal.shrink_to_window(results, known);
       else
         traversal.take_limits(*this);
-      if (traversal.is_bounded() && results.size() >= kHeldByATask) traversal.merge(*this);
+      if (results.size() >= kHeldByATask) traversal.merge(*this);
     }
     void keep_candidates_of(const BroadPhaseInput& whole, std::size_t first) {
       const auto is_other = [&](const PairResult& r) { return !boxes_overlap(whole, kind, r.pair); };
@@ -138,10 +121,10 @@ class PairTraversal {
       if (ended()) return;
       Task task{*this, kind, stats, {}, {}, {}};
       if (stride_ == 1)
-        pairs_.traverse(kind, from + first, from + last, {&task, &Task::consume});
+        pairs_.traverse(kind, from + first, from + last, task.sink());
       else
         for (std::size_t i = from + first; i < from + last; ++i)
-          pairs_.traverse(kind, i * stride_, i * stride_ + 1, {&task, &Task::consume});
+          pairs_.traverse(kind, i * stride_, i * stride_ + 1, task.sink());
       merge(task);
       if (budget_.outcome() == Outcome::free) budget_.advance(last - first);
     });
@@ -150,7 +133,6 @@ class PairTraversal {
   bool ended() const {
     return budget_.spent() || (collect_ == Collect::any && found_any_.load(std::memory_order_relaxed));
   }
-  bool is_bounded() const { return bounds_.most < std::numeric_limits<std::size_t>::max(); }
   double t_max() const {
     return budget_.counts_checks() ? wave_t_max_ : t_max_.load(std::memory_order_relaxed);
   }
@@ -175,35 +157,23 @@ class PairTraversal {
 
   // Hands over the results and statistics of a task.
   void merge(Task& task) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    task.stats.add(task.scratch.stats);
-    task.scratch.stats = {};
-    if (collect_ == Collect::all)
-      merge_all(task);
-    else
+    FoundPairs all(bounds_.most);
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      task.stats.add(task.scratch.stats);
       limits_.add(task.limits);
-    task.results.clear();
-    task.limits = {};
-  }
-  void merge_all(Task& task) {
-    if (task.results.empty()) return;
-    held_ += task.results.size();
-    parts_.push_back({task.kind, std::move(task.results)});
-    if (is_bounded() && held_ > bounds_.most + bounds_.most / 2 + kHeldByATask) drop_latest();
-  }
-  void drop_latest() {
-    std::vector<FoundPair> found;
-    found.reserve(held_);
-    for (Part& part : parts_) {
-      for (const PairResult& r : part.results) found.push_back({part.kind, r});
-      part.results = {};
+      found_.add(task.kind, std::move(task.results));
+      if (found_.too_many() && !dropping_) dropping_ = true, std::swap(all, found_);
     }
-    const auto last = found.begin() + std::ptrdiff_t(bounds_.most) - 1;
-    std::nth_element(found.begin(), last, found.end(), earlier);
-    shrink_to(last->result.toi);
-    found.resize(held_ = bounds_.most);
-    parts_ = {{PairKind::vertex_face, {}}, {PairKind::edge_edge, {}}};
-    for (const FoundPair& f : found) parts_[f.kind == PairKind::edge_edge].results.push_back(f.result);
+    task.scratch.stats = {}, task.limits = {}, task.results = {};
+    if (all.too_many()) drop_latest(all);
+  }
+  // Keeps the earliest, while others add theirs.
+  void drop_latest(FoundPairs& all) {
+    if (const auto latest = all.keep_earliest(budget_.stop())) shrink_to(*latest);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    found_.add(std::move(all));
+    dropping_ = false;
   }
 
   const PairSource& pairs_;
@@ -216,17 +186,14 @@ class PairTraversal {
   std::atomic<double> t_max_;
   std::atomic<bool> found_any_{false};
   double wave_t_max_;
+  std::atomic<bool> slow_{false};
   std::mutex mutex_;
-  Limits limits_;            // unless all are kept
-  std::vector<Part> parts_;  // where all are kept
-  std::size_t held_ = 0;     // in parts_
+  Limits limits_;     // unless all are kept
+  FoundPairs found_;  // where all are kept
+  bool dropping_ = false;
 };
 
 }  // namespace
-
-bool before(const FoundPair& x, const FoundPair& y) {
-  return order(x.kind, x.result.pair) < order(y.kind, y.result.pair);
-}
 
 bool limits_before(const FoundPair& x, const FoundPair& y) {
   return x.result.step_limit != y.result.step_limit ? x.result.step_limit < y.result.step_limit
@@ -258,10 +225,6 @@ void Limits::add(const FoundPair& f) {
 void Limits::add(const Limits& other) {
   for (const std::optional<FoundPair>* f : {&other.contact, &other.stored, &other.clear})
     if (*f) add(**f);
-}
-
-bool earlier(const FoundPair& x, const FoundPair& y) {
-  return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);
 }
 
 TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narrow, Collect collect,

@@ -15,17 +15,10 @@
 #include "scene/pair_source.hpp"
 #include "src/shared/budget.hpp"
 #include "src/shared/checked_options.hpp"
+#include "src/shared/found_pairs.hpp"
 
 namespace onset {
 
-// A pair that is not free, and what was found of it.
-struct FoundPair {
-  PairKind kind;
-  PairResult result;
-};
-
-// Orders by (kind, a, b), as an active set is.
-bool before(const FoundPair& x, const FoundPair& y);
 // Orders by (step_limit, kind, a, b).
 bool limits_before(const FoundPair& x, const FoundPair& y);
 
@@ -48,7 +41,8 @@ struct Limits {
 enum class Collect { all, first, any };
 
 struct TraversalResult {
-  // With Collect::all, sorted by `before`.
+  // With Collect::all, sorted by `before`; no more than TraversalBounds::most. Where time or the caller ended
+  // the call, some of those found until then.
   std::vector<FoundPair> found;
   // With Collect::first and any.
   Limits limits;
@@ -58,7 +52,7 @@ struct TraversalResult {
 // What else bounds a traversal.
 struct TraversalBounds {
   // With Collect::all, pairs later than the earliest toi + `window`, and than the earliest `most`, may be
-  // dropped on the way; the caller cuts off the rest.
+  // dropped; the caller cuts off what is left of those beyond the window.
   double window = std::numeric_limits<double>::infinity();
   std::size_t most = std::numeric_limits<std::size_t>::max();
   // If set, only candidates of this are found. A pair within its tolerance and yet apart can be a candidate
@@ -83,9 +77,6 @@ NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, c
 inline double latest_time(const PairResult& r) {
   return r.certainty == Certainty::certain ? r.toi_hi : r.toi;
 }
-
-// Orders by (toi, kind, a, b).
-bool earlier(const FoundPair& x, const FoundPair& y);
 
 // Copies the counts of both kinds of pairs.
 void copy_counts(const TraversalResult& traversal, Stats& stats);

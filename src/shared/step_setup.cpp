@@ -30,18 +30,19 @@ std::size_t slot_of(BroadPhaseMethod method, BoxTest test) {
   return 2 * std::size_t(method == BroadPhaseMethod::hash) + std::size_t(test == BoxTest::swept);
 }
 
-// Takes the broad phase that an earlier call left, where its order will do, else makes one. Under a budget of
-// checks what is found depends on the order, which must then not depend on earlier calls.
+// Takes the broad phase that an earlier call left, where its order will do, else makes one; null where the
+// budget ends that. Under a budget of checks what is found depends on the order, which must then not depend
+// on earlier calls.
 std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const BroadPhaseInput& input,
-                                             const Budget& budget) {
+                                             Budget& budget) {
   if (input.mesh.broad_phases && is_kept(options.broad_phase) && !budget.counts_checks()) {
     auto used = input.mesh.broad_phases->take(slot_of(options.broad_phase, input.test));
     if (used && used->suits(input.motion)) {
-      used->refit(input);
+      used->refit(input, budget.stop());
       return used;
     }
   }
-  return make_broad_phase(options.broad_phase, input);
+  return make_broad_phase(options.broad_phase, input, budget.stop());
 }
 
 }  // namespace
@@ -87,6 +88,7 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
         std::max(tree->inflation, share * euclidean_reach(data, options, std::max(d_hat, reach), rounding));
   if (budget.spent()) return;
   broad = take_broad_phase(options, *tree, budget);
+  if (!broad) return;
   if (is_kept(options.broad_phase)) pool_ = data.broad_phases;
   slot_ = slot_of(options.broad_phase, test);
   stats.broad_phase = broad->name();

@@ -50,16 +50,14 @@ class Near {
 Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most,
                              Budget& budget) {
   const Near near(mesh, rest.motion, options);
-  auto all =
-      gather<NearPair>(*rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
-                       [&](PairKind kind, const IdPair* pairs, std::size_t count,
-                           std::vector<NearPair>& found) { near.add_near(kind, pairs, count, found); });
-  const auto order = [](const NearPair& p) {
-    return std::array<int, 3>{int(p.pair.kind), p.pair.a, p.pair.b};
-  };
-  parallel_sort(all.found.begin(), all.found.end(),
-                [&](const NearPair& p, const NearPair& q) { return order(p) < order(q); });
-  return all;
+  return gather<NearPair>(
+      *rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+      [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) {
+        near.add_near(kind, pairs, count, found);
+      },
+      [](const NearPair& p) {
+        return IdPair{p.pair.a, p.pair.b};
+      });
 }
 
 }  // namespace onset

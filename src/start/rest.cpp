@@ -19,7 +19,7 @@ void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& b
   input.test = BoxTest::swept;
   input.instruction_set = options.instruction_set;
   input.edges_against_faces = edge_face;
-  broad = make_broad_phase(options.broad_phase, input);
+  broad = make_broad_phase(options.broad_phase, input, budget.stop());
 }
 
 }  // namespace onset
