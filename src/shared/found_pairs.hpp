@@ -63,10 +63,10 @@ class FoundPairs {
     return most_ < std::numeric_limits<std::size_t>::max() && held_ > most_ + most_ / 2 + kSlack;
   }
 
-  // Drops all but the earliest `most`, and returns the latest time of these. Nothing, or not all of it, is
-  // dropped where there are no more, or it is stopped.
+  // Drops all but the earliest `most`, and returns the latest time of these, where there are so many. Not all
+  // are dropped where it is stopped.
   std::optional<double> keep_earliest(const Stop& stop) {
-    if (held_ <= most_ || most_ == 0) return std::nullopt;
+    if (held_ < most_ || most_ == 0) return std::nullopt;
     const std::optional<Time> last = latest_kept(stop);
     if (!last) return std::nullopt;
     held_ = 0;
@@ -123,9 +123,8 @@ class FoundPairs {
     while (times.size() > kItemsALook) {
       const Time pivot = median_of_some(times);
       below.clear(), rest.clear();
-      if (!each_unless(stop, 0, times.size(), [&](std::size_t i) {
-            (times[i] < pivot ? below : rest).push_back(times[i]);
-          }))
+      if (!each_unless(stop, 0, times.size(),
+                       [&](std::size_t i) { (times[i] < pivot ? below : rest).push_back(times[i]); }))
         return std::nullopt;
       const bool is_below = place < below.size();
       if (!is_below) place -= below.size();
@@ -174,7 +173,8 @@ class FoundPairs {
     if (held_ < kFew)
       std::sort(places.begin(), places.end(),
                 [](const Place& x, const Place& y) { return x.order < y.order; });
-    else if (!radix_sort(places, [](const Place& p) { return p.order; }, stop))
+    else if (!radix_sort(
+                 places, [](const Place& p) { return p.order; }, stop))
       return false;
     out.reserve(held_);
     return each_unless(stop, 0, held_, [&](std::size_t i) {

@@ -47,6 +47,7 @@ class PairTraversal {
     if (!budget_.counts_checks()) return run(kind, 0, blocks, stats);
     for (std::size_t first = 0, wave = kFirstWave; first < blocks;) {
       budget_.look_at_checks();
+      if (const auto latest = found_.keep_earliest(budget_.stop())) shrink_to(*latest);
       wave_t_max_ = t_max_.load(std::memory_order_relaxed);
       const std::size_t last = std::min(first + wave, blocks);
       const std::int64_t before = stats.checks;
@@ -168,9 +169,11 @@ class PairTraversal {
     task.scratch.stats = {}, task.limits = {}, task.results = {};
     if (all.too_many()) drop_latest(all);
   }
-  // Keeps the earliest, while others add theirs.
+  // Keeps the earliest, while others add theirs. When that is depends on the order of work: with a budget of
+  // checks, t_max falls between waves.
   void drop_latest(FoundPairs& all) {
-    if (const auto latest = all.keep_earliest(budget_.stop())) shrink_to(*latest);
+    const auto latest = all.keep_earliest(budget_.stop());
+    if (latest && !budget_.counts_checks()) shrink_to(*latest);
     const std::lock_guard<std::mutex> lock(mutex_);
     found_.add(std::move(all));
     dropping_ = false;

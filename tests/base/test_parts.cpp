@@ -15,9 +15,7 @@ namespace {
 struct Item {
   std::uint64_t key;
   double payload[3];
-  bool operator==(const Item& o) const {
-    return key == o.key && std::equal(payload, payload + 3, o.payload);
-  }
+  bool operator==(const Item& o) const { return key == o.key && std::equal(payload, payload + 3, o.payload); }
 };
 
 std::uint64_t key_of(const Item& item) { return item.key; }
@@ -59,9 +57,8 @@ void fill(Parts<Item>& parts, std::vector<Item> items, scenes::Random& random) {
 TEST_CASE("parts are put in the order of their keys, after what is there already", "[property]") {
   scenes::Random random(11);
   for (const int kind : {0, 1, 2})
-    for (const std::size_t count :
-         {std::size_t(0), std::size_t(1), std::size_t(700), Parts<Item>::kPart, Parts<Item>::kPart + 1,
-          std::size_t(200000)}) {
+    for (const std::size_t count : {std::size_t(0), std::size_t(1), std::size_t(700), Parts<Item>::kPart,
+                                    Parts<Item>::kPart + 1, std::size_t(200000)}) {
       CAPTURE(kind, count);
       std::vector<Item> expected{item(~std::uint64_t(0))}, found = expected;
       const std::vector<Item> items = ordered(count, kind);

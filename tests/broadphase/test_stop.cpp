@@ -40,9 +40,7 @@ struct Counter {
   std::int64_t pairs = 0, since = 0, most = 0;
 
   explicit Counter(std::int64_t n) : asks(n) {}
-  PairSink sink() {
-    return {this, &Counter::consume, {this, &Counter::asked}};
-  }
+  PairSink sink() { return {this, &Counter::consume, {this, &Counter::asked}}; }
   static void consume(void* context, const IdPair*, std::size_t count) {
     Counter& c = *static_cast<Counter*>(context);
     c.pairs += std::int64_t(count), c.since += std::int64_t(count);
@@ -107,28 +105,29 @@ TEST_CASE("a broad phase that was stopped while it was made is none", "[property
   const Soup soup = scattered("many", 3000, 0.05, 0.05, random);
   const Motion motion = soup.motion();
   tbb::task_arena alone(1);
-  for (const Method& m : all_methods()) alone.execute([&] {
-    INFO(m.name);
-    BroadPhaseInput input{soup.mesh, motion};
-    input.instruction_set = m.instruction_set;
-    Asks all;
-    const auto whole = make_broad_phase(m.method, input, all.stop());
-    REQUIRE((whole && whole->ready()));
-    REQUIRE(all.count >= 3);
-    const IdPairs expected = candidates(*whole, PairKind::edge_edge);
-    for (std::int64_t n = 0; n < all.count; ++n) {
-      Asks some(n);
-      CHECK(make_broad_phase(m.method, input, some.stop()) == nullptr);
-    }
-    Asks fitting;
-    whole->refit(input, fitting.stop());
-    for (std::int64_t n = 0; n < fitting.count; ++n) {
-      Asks some(n);
-      whole->refit(input, some.stop());
-      CHECK_FALSE(whole->ready());
-      CHECK(whole->blocks(PairKind::edge_edge) == 0);
-    }
-    whole->refit(input);
-    CHECK((candidates(*whole, PairKind::edge_edge) == expected));
-  });
+  for (const Method& m : all_methods())
+    alone.execute([&] {
+      INFO(m.name);
+      BroadPhaseInput input{soup.mesh, motion};
+      input.instruction_set = m.instruction_set;
+      Asks all;
+      const auto whole = make_broad_phase(m.method, input, all.stop());
+      REQUIRE((whole && whole->ready()));
+      REQUIRE(all.count >= 3);
+      const IdPairs expected = candidates(*whole, PairKind::edge_edge);
+      for (std::int64_t n = 0; n < all.count; ++n) {
+        Asks some(n);
+        CHECK(make_broad_phase(m.method, input, some.stop()) == nullptr);
+      }
+      Asks fitting;
+      whole->refit(input, fitting.stop());
+      for (std::int64_t n = 0; n < fitting.count; ++n) {
+        Asks some(n);
+        whole->refit(input, some.stop());
+        CHECK_FALSE(whole->ready());
+        CHECK(whole->blocks(PairKind::edge_edge) == 0);
+      }
+      whole->refit(input);
+      CHECK((candidates(*whole, PairKind::edge_edge) == expected));
+    });
 }

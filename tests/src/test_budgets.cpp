@@ -273,3 +273,27 @@ TEST_CASE("the histogram counts every pair left by the culls, and the worst is o
          again.checks_histogram == s.checks_histogram));
   CHECK(s.looked_at == 1);
 }
+
+TEST_CASE("budgets of checks and of memory together give the same bytes for any number of threads",
+          "[determinism]") {
+  const scenes::Scene scene = scenes::sphere_onto_sphere(60, 90, 0.01, 0.8);
+  const Mesh mesh(scene.x_t0, scene.faces);
+  int partial = 0;
+  for (const std::int64_t rows : {0, 20, 100, 500})
+    for (const std::int64_t limit : {1000, 18900, 1 << 22}) {
+      Options o;
+      o.memory_limit = 256 * rows;
+      o.check_limit = limit;
+      o.threads = 1;
+      const ActiveSet set = construct_active_set(mesh, scene.x_t0, scene.x_t1, o);
+      CAPTURE(rows, limit, set.size());
+      partial += set.outcome == Outcome::out_of_checks && set.size() > 0;
+      for (const int threads : {2, 4}) {
+        o.threads = threads;
+        const ActiveSet again = construct_active_set(mesh, scene.x_t0, scene.x_t1, o);
+        CHECK(same_bytes(set, again));
+        CHECK(set.stats.checks == again.stats.checks);
+      }
+    }
+  CHECK(partial > 0);
+}
