@@ -13,7 +13,9 @@ much=${1:-8}
 [ $# -gt 0 ] || set -- meshes calls queries readers
 
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --parallel "$(nproc)"
+for target; do
+  cmake --build build/fuzz --parallel "$(nproc)" --target libfuzzer_"$target" fuzz_"$target"
+done
 
 case $much in
   *x) limit="-runs=${much%x}" ;;

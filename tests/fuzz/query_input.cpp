@@ -40,8 +40,12 @@ double size_of(const Query& query) {
 // Finite and in range.
 bool is_usable(const Query& query) { return size_of(query) <= kLargest; }
 
-// Integer arithmetic needs no size; the rational oracle rounds distances to doubles.
-bool of_common_size(const Query& query, double d) { return size_of(query) < 0x1p500 && d < 0x1p500; }
+// Integer arithmetic needs no size; the rational oracle rounds distances to doubles, and takes seconds for a
+// separation of far below a query's size.
+bool of_common_size(const Query& query, double d) {
+  const double size = size_of(query);
+  return size < 0x1p500 && d < 0x1p500 && (d == 0 || d > 0x1p-100 * size);
+}
 
 // What is known about the first contact: that there is none, or an interval that holds it, of adjacent
 // doubles where `exact`.
