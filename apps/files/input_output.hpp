@@ -1,16 +1,12 @@
-// Files to read and to write. Whatever fails throws InputError naming the path and the system's reason.
+// Files to write. Whatever fails throws InputError naming the path and the system's reason.
 #pragma once
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
 
 namespace app {
-
-// To read, in binary mode.
-std::ifstream open_input(const std::string& path);
 
 // A file to write, or stdout for "-". Call close() when all is written, for a full disk may show only then.
 class Output {

@@ -64,8 +64,16 @@ std::optional<std::int64_t> parse_whole(std::string_view word) {
   return value;
 }
 
-std::string counted(std::size_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+std::string counted(std::size_t count, const std::string& one, const std::string& several) {
+  return std::to_string(count) + " " + (count == 1 ? one : several.empty() ? one + "s" : several);
+}
+
+std::string shown(std::string cause) {
+  constexpr std::size_t kLength = 500;
+  if (cause.size() > kLength) cause = cause.substr(0, kLength) + "...";
+  for (char& c : cause)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return cause;
 }
 
 std::string quoted(std::string_view word) {

@@ -21,7 +21,6 @@ class Lines {
   bool next(std::string_view& line);
   std::size_t number() const { return number_; }  // of the line that next() gave, from 1
   std::size_t left() const { return rest_.size(); }
-  bool starts_with(std::string_view text) const { return rest_.substr(0, text.size()) == text; }
 
  private:
   std::string_view rest_;
@@ -38,8 +37,12 @@ std::optional<double> parse_double(std::string_view word);
 // None where the word is no whole number, or beyond 64 bits.
 std::optional<std::int64_t> parse_whole(std::string_view word);
 
-// "1 face", "2 faces".
-std::string counted(std::size_t count, const std::string& one);
+// "1 face", "2 faces"; "1 entry", "2 entries" where the plural is given.
+std::string counted(std::size_t count, const std::string& one, const std::string& several = "");
+
+// For messages about a broken file, whose bytes are no words for a terminal: without control characters, and
+// cut off where it is longer than a few lines.
+std::string shown(std::string cause);
 
 // For messages: in quotes, cut off after some length.
 std::string quoted(std::string_view word);

@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import random
+import resource
 import struct
 import subprocess
 import tempfile
@@ -47,6 +48,18 @@ class AppTest(unittest.TestCase):
         self.assertTrue(done.stderr.endswith("\n"), done.stderr)
         for word in words:
             self.assertIn(word, done.stderr)
+
+    def must_refuse(self, words, *arguments):
+        """As must_fail, for bad input: with a second or two of computing, and 64 MiB of addresses, memory or not."""
+        limits = [(resource.RLIMIT_AS, 64 << 20), (resource.RLIMIT_CPU, 2), (resource.RLIMIT_CORE, 0)]
+        limit = lambda: [resource.setrlimit(which, (most, most)) for which, most in limits]
+        done = subprocess.run([BINARY, *map(str, arguments)], capture_output=True, cwd=self.folder, timeout=60,
+                              preexec_fn=limit)
+        stderr = done.stderr.decode(errors="replace")
+        self.assertEqual((done.returncode, done.stdout, stderr.count("\n")), (1, b"", 1), (done.args, stderr[-2000:]))
+        self.assertLess(len(stderr), 2000)
+        for word in words:
+            self.assertIn(word, stderr)
 
     def write(self, name, text):
         path = self.folder / name

@@ -5,16 +5,14 @@
 #include <utility>
 
 #include "files/error.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 
 MeshBuilder::MeshBuilder(std::string path, std::int64_t base) : base_(base) { mesh_.path = std::move(path); }
 
 void MeshBuilder::fail(std::size_t line, const std::string& cause) const {
-  std::string shown = cause;  // names out of a broken file are no words for a terminal
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  throw InputError(mesh_.path + (line > 0 ? ":" + std::to_string(line) : "") + ": " + shown);
+  throw InputError(mesh_.path + (line > 0 ? ":" + std::to_string(line) : "") + ": " + shown(cause));
 }
 
 void MeshBuilder::fail(const Place& place, const std::string& cause) const {
@@ -36,7 +34,7 @@ void MeshBuilder::out_of_range(std::int64_t id, const Place& place) const {
 
 void MeshBuilder::check(std::int64_t id, const Place& place) {
   if (id < 0) out_of_range(id, place);
-  if (id >= vertices()) forward_.push_back({id, place});
+  if (id >= vertices() && (forward_.empty() || id > forward_.back().id)) forward_.push_back({id, place});
 }
 
 void MeshBuilder::check_different(const std::vector<std::int64_t>& ids, const Place& place) {

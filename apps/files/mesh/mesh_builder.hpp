@@ -42,7 +42,7 @@ class MeshBuilder {
   [[noreturn]] void fail(const Place& place, const std::string& cause) const;
 
  private:
-  struct Forward {  // an id of a vertex that had not been read
+  struct Forward {  // an id of a vertex that had not been read, and larger than all such before it
     std::int64_t id;
     Place place;
   };

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <map>
+#include <new>
 
 #include "files/error.hpp"
-#include "files/input_output.hpp"
+#include "files/input.hpp"
 #include "files/mesh/mesh_file.hpp"
 
 namespace app {
 namespace {
-
-using Reader = MeshFile (*)(const std::string& path, std::string_view bytes);
 
 std::string extension(const std::string& path) {
   std::string ext = std::filesystem::path(path).extension().string();
@@ -37,35 +34,55 @@ std::string way_out(const std::string& path, const std::string& ext) {
   return ext.empty() ? "no extension" : "unknown extension " + ext;
 }
 
-std::string read_all(const std::string& path) {
-  std::ifstream in = open_input(path);
-  std::string bytes;
-  std::error_code unknown;
-  const auto size = std::filesystem::file_size(path, unknown);
-  if (!unknown) bytes.reserve(size);
-  std::vector<char> chunk(1 << 16);
-  errno = 0;
-  while (in.read(chunk.data(), std::streamsize(chunk.size())) || in.gcount() > 0)
-    bytes.append(chunk.data(), std::size_t(in.gcount()));
-  if (in.bad()) throw InputError(path + ": cannot be read: " + std::strerror(errno));
-  return bytes;
+// Texts hold no byte 0; what a format is, its first bytes tell.
+bool is_always_text(const std::string&, std::string_view, std::uint64_t) { return true; }
+
+bool is_text_ply(const std::string&, std::string_view head, std::uint64_t) {
+  return head.find("format binary_") == head.npos;
+}
+
+bool is_text_off(const std::string&, std::string_view head, std::uint64_t) {
+  return head.substr(0, head.find('\n')).find("BINARY") == head.npos;
+}
+
+struct Format {
+  MeshFile (*read)(const std::string& path, std::string_view bytes);
+  bool (*is_text)(const std::string& path, std::string_view head, std::uint64_t size);
+};
+
+const std::map<std::string, Format> kFormats = {{".obj", {read_obj, is_always_text}},
+                                                {".ply", {read_ply, is_text_ply}},
+                                                {".off", {read_off, is_text_off}},
+                                                {".stl", {read_stl, is_text_stl}}};
+
+bool is_wide(std::string_view head) {
+  return head.substr(0, 2) == "\xFF\xFE" || head.substr(0, 2) == "\xFE\xFF";
+}
+
+MeshFile read(InputFile& file, const std::string& path, const Format& format) {
+  std::string bytes(1 << 16, '\0');
+  bytes.resize(file.read(bytes.data(), bytes.size()));
+  if (bytes.empty()) throw InputError(path + ": the file is empty");
+  if (is_wide(bytes)) throw InputError(path + ": UTF-16: save it as UTF-8");
+  const bool is_text = format.is_text(path, bytes, file.size());
+  return format.read(path, read_rest(file, path, std::move(bytes), is_text));
 }
 
 }  // namespace
 
 MeshFile read_mesh(const std::string& path) {
-  static const std::map<std::string, Reader> readers = {
-      {".obj", read_obj}, {".ply", read_ply}, {".off", read_off}, {".stl", read_stl}};
   const std::string ext = extension(path);
-  const auto reader = readers.find(ext);
-  open_input(path);  // that it is not there says more than what it is called
-  if (reader == readers.end()) {
+  const auto format = kFormats.find(ext);
+  InputFile file(path);  // that it is not there says more than what it is called
+  if (format == kFormats.end()) {
     const std::string out = way_out(path, ext);
     throw InputError(path + ": " + (out[0] == ' ' ? ext + out : out + ", .obj, .ply, .off or .stl expected"));
   }
-  const std::string bytes = read_all(path);
-  if (bytes.empty()) throw InputError(path + ": the file is empty");
-  return reader->second(path, bytes);
+  try {
+    return read(file, path, format->second);
+  } catch (const std::bad_alloc&) {
+    throw InputError(path + ": not enough memory for its " + std::to_string(file.size()) + " bytes");
+  }
 }
 
 }  // namespace app

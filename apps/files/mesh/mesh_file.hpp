@@ -55,5 +55,7 @@ MeshFile read_ply(const std::string& path, std::string_view bytes);
 MeshFile read_off(const std::string& path, std::string_view bytes);
 // STL, ascii and binary; each corner is a vertex of its own.
 MeshFile read_stl(const std::string& path, std::string_view bytes);
+// Which of the two, from the first bytes of a file of `size`; throws where it can be neither.
+bool is_text_stl(const std::string& path, std::string_view head, std::uint64_t size);
 
 }  // namespace app

@@ -35,8 +35,6 @@ class ObjReader {
   ObjReader(const std::string& path, std::string_view text) : mesh_(path, 1), lines_(without_mark(text)) {}
 
   MeshFile read() {
-    if (lines_.starts_with("\xFF\xFE") || lines_.starts_with("\xFE\xFF"))
-      mesh_.fail(0, "UTF-16: save it as UTF-8");
     std::string_view line;
     while (lines_.next(line)) {
       number_ = lines_.number();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "files/text_lines.hpp"
 
@@ -19,11 +20,6 @@ std::optional<PlyType> to_type(std::string_view name) {
       {"float64", PlyType::float64}};
   const auto found = types.find(name);
   return found == types.end() ? std::nullopt : std::optional<PlyType>(found->second);
-}
-
-template <class Named>
-bool has(const std::vector<Named>& list, std::string_view name) {
-  return std::any_of(list.begin(), list.end(), [&](const Named& n) { return n.name == name; });
 }
 
 class HeaderReader {
@@ -79,8 +75,9 @@ class HeaderReader {
     const std::optional<std::int64_t> count = parse_whole(words_[2]);
     const std::string name(words_[1]);
     if (!count || *count < 0) fail("element " + name + " has count " + quoted(words_[2]));
-    if (has(header_.elements, name)) fail("a second element " + name);
+    if (!elements_.insert(name).second) fail("a second element " + name);
     header_.elements.push_back({name, *count, header_.lines, {}});
+    properties_.clear();
   }
 
   void property() {
@@ -95,7 +92,8 @@ class HeaderReader {
     p.type = type(p.name, words_[words_.size() - 2]);
     if (p.list) p.count_type = type(p.name, words_[2]);
     if (!is_whole(p.count_type)) fail("property " + p.name + " has count type " + quoted(words_[2]));
-    if (has(element.properties, p.name)) fail("a second property " + p.name + " of element " + element.name);
+    if (!properties_.insert(p.name).second)
+      fail("a second property " + p.name + " of element " + element.name);
     element.properties.push_back(p);
   }
 
@@ -119,6 +117,7 @@ class HeaderReader {
   const MeshBuilder& mesh_;
   std::vector<std::string_view> words_;
   PlyHeader header_;
+  std::set<std::string> elements_, properties_;  // names so far, properties of the last element
   bool has_format_ = false;
 };
 

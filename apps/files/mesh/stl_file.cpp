@@ -101,22 +101,26 @@ class TextReader {
 }  // namespace
 
 // A binary file may start with "solid", too: its size tells.
-MeshFile read_stl(const std::string& path, std::string_view bytes) {
-  MeshBuilder mesh(path, 0);
-  const bool can_be_binary = bytes.size() >= kHeader + kCount;
-  const std::uint64_t count = can_be_binary ? value_at<std::uint32_t>(bytes, kHeader) : 0;
-  if (can_be_binary && bytes.size() == kHeader + kCount + kRow * count)
-    return read_binary(std::move(mesh), bytes);
+bool is_text_stl(const std::string& path, std::string_view head, std::uint64_t size) {
+  const bool can_be_binary = head.size() >= kHeader + kCount;
+  const std::uint64_t count = can_be_binary ? value_at<std::uint32_t>(head, kHeader) : 0;
+  if (can_be_binary && size == kHeader + kCount + kRow * count) return false;
   std::vector<std::string_view> words;
-  Lines lines(without_mark(bytes));
+  Lines lines(without_mark(head));
   std::string_view line;
   while (words.empty() && lines.next(line)) split_words(line, words);
-  if (!words.empty() && (words[0] == "solid" || words[0] == "SOLID"))
-    return TextReader(std::move(mesh), without_mark(bytes)).read();
+  if (!words.empty() && (words[0] == "solid" || words[0] == "SOLID")) return true;
+  const MeshBuilder mesh(path, 0);
   if (!can_be_binary) mesh.fail(0, "not an STL file");
   mesh.fail(0, "not an STL file, or cut off: as a binary one it has " + std::to_string(count) +
                    " faces, of " + std::to_string(kRow) + " bytes each, in " +
-                   std::to_string(bytes.size() - kHeader - kCount) + " bytes");
+                   std::to_string(size - kHeader - kCount) + " bytes");
+}
+
+MeshFile read_stl(const std::string& path, std::string_view bytes) {
+  MeshBuilder mesh(path, 0);
+  if (is_text_stl(path, bytes, bytes.size())) return TextReader(std::move(mesh), without_mark(bytes)).read();
+  return read_binary(std::move(mesh), bytes);
 }
 
 }  // namespace app

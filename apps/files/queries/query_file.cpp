@@ -4,8 +4,9 @@
 #include <string_view>
 
 #include "files/error.hpp"
-#include "files/input_output.hpp"
+#include "files/input.hpp"
 #include "files/queries/rational.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {
@@ -36,7 +37,7 @@ std::array<std::string_view, kFields> split(std::string_view line) {
 
 Row parse_row(std::string_view line) {
   const auto f = split(line);
-  if (f[6] != "0" && f[6] != "1") throw InputError("truth '" + std::string(f[6]) + "', 0 or 1 expected");
+  if (f[6] != "0" && f[6] != "1") throw InputError("truth " + quoted(f[6]) + ", 0 or 1 expected");
   return {{exact_double(f[0], f[1]), exact_double(f[2], f[3]), exact_double(f[4], f[5])}, f[6] == "1"};
 }
 
@@ -56,19 +57,18 @@ onset::QueryResult ask(onset::PairKind kind, const TruthQuery& query, const onse
 }
 
 std::vector<TruthQuery> read_queries(const std::string& path) {
-  std::ifstream in = open_input(path);
+  InputLines lines(path);
   std::vector<TruthQuery> queries;
   std::size_t rows = 0;
-  std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    if (trim(line).empty() && in.peek() == std::ifstream::traits_type::eof()) break;  // a last empty line
+  for (std::string_view line; lines.next(line);) {
+    const bool blank = trim(line).empty();
+    if (blank && lines.at_end()) break;  // a last empty line
     try {
-      add_row(queries, rows++, parse_row(line));
+      add_row(queries, rows++, parse_row(blank ? "" : line));
     } catch (const InputError& e) {
-      throw InputError(path + ":" + std::to_string(number) + ": " + e.what());
+      lines.fail(e.what());
     }
   }
-  if (in.bad()) throw InputError(path + ": reading failed");
   if (rows == 0) throw InputError(path + ": no queries");
   if (rows % kRows != 0) throw InputError(path + ": " + std::to_string(rows) + " rows, not a multiple of 8");
   return queries;

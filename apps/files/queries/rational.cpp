@@ -8,6 +8,7 @@
 #include <string>
 
 #include "files/error.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {
@@ -27,9 +28,12 @@ Decimal parse(std::string_view text) {
     text.remove_prefix(1);
   }
   if (text.empty() || text.find_first_not_of("0123456789") != text.npos)
-    throw InputError("'" + std::string(whole) + "' is not an integer");
+    throw InputError(quoted(whole) + " is not an integer");
   const std::size_t first = text.find_first_not_of('0');
   value.digits = first == text.npos ? "0" : text.substr(first);
+  if (value.digits.size() > kMostDigits)
+    throw InputError(quoted(whole) + " has " + std::to_string(value.digits.size()) + " digits, " +
+                     std::to_string(kMostDigits) + " are read: cancel common factors");
   return value;
 }
 

@@ -3,26 +3,18 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
-#include <sstream>
+#include <optional>
+#include <string_view>
 
 #include "files/error.hpp"
-#include "files/input_output.hpp"
+#include "files/input.hpp"
+#include "files/queries/json_lists.hpp"
+#include "files/text_lines.hpp"
 
 namespace app {
 namespace {
 
-using Ids = std::vector<std::array<std::int64_t, 2>>;
-
-template <class T>
-T read_json(const std::string& path) {
-  std::ifstream in = open_input(path);
-  try {
-    return nlohmann::json::parse(in).get<T>();
-  } catch (const nlohmann::json::exception& e) {
-    throw InputError(path + ": " + e.what());
-  }
-}
+constexpr char kTruthColumns[] = "kind,a,b,toi_lo,toi_hi";
 
 // Ids that run over vertices, edges and faces.
 class BoxIds {
@@ -47,8 +39,8 @@ class BoxIds {
 
 void add_listed(SceneTruth& truth, const std::string& pairs_path, const std::string& collides_path,
                 const onset::Mesh& mesh) {
-  const Ids pairs = read_json<Ids>(pairs_path);
-  const auto collides = read_json<std::vector<bool>>(collides_path);
+  const std::vector<std::array<std::int64_t, 2>> pairs = read_id_pairs(pairs_path);
+  const std::vector<bool> collides = read_flags(collides_path);
   if (pairs.size() != collides.size())
     throw InputError(collides_path + ": " + std::to_string(collides.size()) + " values for " +
                      std::to_string(pairs.size()) + " pairs");
@@ -58,53 +50,79 @@ void add_listed(SceneTruth& truth, const std::string& pairs_path, const std::str
       const std::uint64_t key = ids.key(pairs[i]);
       if (collides[i]) truth.push_back({key, {}});
     } catch (const InputError& e) {
-      throw InputError(pairs_path + ": " + e.what());
+      throw InputError(pairs_path + ": entry " + std::to_string(i) + ": " + e.what());
     }
   }
 }
 
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> parts;
-  std::istringstream in(line);
-  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+std::vector<std::string_view> fields(std::string_view line) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    parts.push_back(line.substr(begin, end - begin));
+    begin = end + 1;
+  }
   return parts;
 }
 
-double number(const std::string& text) {
+// Hexadecimal too, as C writes doubles exactly.
+double number(std::string_view field) {
+  const std::string text(field);
   char* end = nullptr;
   const double x = std::strtod(text.c_str(), &end);
-  if (text.empty() || (*end != '\0' && *end != '\r')) throw InputError("'" + text + "' is not a number");
+  if (text.empty() || *end != '\0') throw InputError(quoted(field) + " is not a number");
   return x;
 }
 
-CollidingPair colliding_pair(const std::vector<std::string>& row, const onset::Mesh& mesh) {
+ExactToi exact_toi(std::string_view lo, std::string_view hi) {
+  const ExactToi toi{number(lo), number(hi)};
+  if (!toi.known()) throw InputError(quoted(lo) + " is not at most " + quoted(hi));
+  return toi;
+}
+
+int id(std::string_view field, std::int64_t count, const char* of) {
+  const std::optional<std::int64_t> value = parse_whole(field);
+  if (!value || *value < 0 || *value >= count)
+    throw InputError(quoted(field) + " is no id of the " + std::to_string(count) + " " + of);
+  return int(*value);
+}
+
+CollidingPair colliding_pair(const std::vector<std::string_view>& row, const onset::Mesh& mesh) {
   if (row.size() < 3 || row.size() > 5 || (row[0] != "vf" && row[0] != "ee"))
-    throw InputError("kind,a,b,toi_lo,toi_hi expected");
+    throw InputError(std::string(kTruthColumns) + " expected");
   const bool vf = row[0] == "vf";
-  const double a = number(row[1]), b = number(row[2]);
-  const double rows_a = double(vf ? mesh.num_vertices() : mesh.num_edges()),
-               rows_b = double(vf ? mesh.num_faces() : mesh.num_edges());
-  if (!(a >= 0 && a < rows_a && b >= 0 && b < rows_b)) throw InputError("ids that this mesh does not have");
-  CollidingPair pair{pair_key(vf ? onset::PairKind::vertex_face : onset::PairKind::edge_edge, int(a), int(b)),
-                     {}};
-  if (row.size() == 5 && !row[3].empty()) pair.toi = {number(row[3]), number(row[4])};
+  const int a = id(row[1], vf ? mesh.num_vertices() : mesh.num_edges(), vf ? "vertices" : "edges"),
+            b = id(row[2], vf ? mesh.num_faces() : mesh.num_edges(), vf ? "faces" : "edges");
+  CollidingPair pair{pair_key(vf ? onset::PairKind::vertex_face : onset::PairKind::edge_edge, a, b), {}};
+  if (row.size() == 5 && !row[3].empty()) pair.toi = exact_toi(row[3], row[4]);
   return pair;
 }
 
 void add_rows(SceneTruth& truth, const std::string& path, const onset::Mesh& mesh) {
-  std::ifstream in = open_input(path);
-  std::string line;
-  std::getline(in, line);
-  for (std::size_t at = 2; std::getline(in, line); ++at) {
+  InputLines lines(path);
+  std::string_view line;
+  if (!lines.next(line)) throw InputError(path + ": the file is empty, " + kTruthColumns + " expected");
+  if (fields(line)[0] != "kind") lines.fail(std::string(kTruthColumns) + " expected, not " + quoted(line));
+  while (lines.next(line)) {
     try {
       truth.push_back(colliding_pair(fields(line), mesh));
     } catch (const InputError& e) {
-      throw InputError(path + ":" + std::to_string(at) + ": " + e.what());
+      lines.fail(e.what());
     }
   }
 }
 
 }  // namespace
+
+std::vector<std::string> truth_paths(const std::vector<std::string>& files) {
+  std::vector<std::string> paths;
+  for (const std::string& file : files) {
+    const std::size_t comma = std::min(file.find(','), file.size());
+    paths.push_back(file.substr(0, comma));
+    if (comma < file.size()) paths.push_back(file.substr(comma + 1));
+  }
+  return paths;
+}
 
 SceneTruth read_scene_truth(const std::vector<std::string>& files, const onset::Mesh& mesh) {
   SceneTruth truth;
@@ -122,29 +140,29 @@ SceneTruth read_scene_truth(const std::vector<std::string>& files, const onset::
   return truth;
 }
 
+std::string query_toi_path(const std::string& path) {
+  return (std::filesystem::path(path).parent_path() / "toi.csv").string();
+}
+
 std::vector<ExactToi> read_query_toi(const std::string& path, const std::vector<bool>& collides) {
-  const std::filesystem::path beside = std::filesystem::path(path).parent_path() / "toi.csv";
+  const std::string beside = query_toi_path(path);
   if (!std::filesystem::exists(beside)) return {};
-  std::ifstream in = open_input(beside.string());
+  InputLines lines(beside);
   std::vector<ExactToi> times;
-  for (std::string line; std::getline(in, line);) {
-    const std::vector<std::string> row = fields(line);
-    const std::string place = beside.string() + ":" + std::to_string(times.size() + 1) + ": ";
-    if (row.size() != 2) throw InputError(place + "lo,hi expected");
-    const auto time = [&](const std::string& word) {
-      try {
-        return number(word);
-      } catch (const InputError& e) {
-        throw InputError(place + e.what());
-      }
-    };
-    const ExactToi toi{time(row[0]), time(row[1])};
-    if (times.size() < collides.size() && std::isfinite(toi.lo) != bool(collides[times.size()]))
-      throw InputError(place + "contradicts the truth of the query");
-    times.push_back(toi);
+  for (std::string_view line; lines.next(line);) {
+    try {
+      const std::vector<std::string_view> row = fields(line);
+      if (row.size() != 2) throw InputError("lo,hi expected");
+      times.push_back(exact_toi(row[0], row[1]));
+    } catch (const InputError& e) {
+      lines.fail(e.what());
+    }
+    const std::size_t i = times.size() - 1;
+    if (i < collides.size() && std::isfinite(times[i].lo) != bool(collides[i]))
+      lines.fail("contradicts the truth of the query");
   }
   if (times.size() != collides.size())
-    throw InputError(beside.string() + ": " + std::to_string(times.size()) + " rows for " +
+    throw InputError(beside + ": " + std::to_string(times.size()) + " rows for " +
                      std::to_string(collides.size()) + " queries");
   return times;
 }

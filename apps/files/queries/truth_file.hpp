@@ -29,17 +29,20 @@ struct CollidingPair {
 using SceneTruth = std::vector<CollidingPair>;
 
 // Each of `files` is one of
-//   PAIRS.json,COLLIDES.json   as in the data of Belgrod et al.: [[id, id], ...] with ids that run over
-//   vertices,
-//                              then edges, then faces, and [true, false, ...] in the same order
-//   TRUTH.csv                  kind,a,b,toi_lo,toi_hi: one row a pair that collides, ids within their kind,
-//   the
-//                              bracket of its time of impact, empty where it is not known
+// - PAIRS.json,COLLIDES.json, as in the data of Belgrod et al.: [[id, id], ...] with ids that run over
+//   vertices, then edges, then faces, and [true, false, ...] in the same order;
+// - TRUTH.csv, under a row of names kind,a,b,toi_lo,toi_hi one row a pair that collides: ids within their
+// kind,
+//   the bracket of its time of impact, empty where it is not known.
 // Throws InputError naming the file.
 SceneTruth read_scene_truth(const std::vector<std::string>& files, const onset::Mesh& mesh);
+// The paths in them, one by one.
+std::vector<std::string> truth_paths(const std::vector<std::string>& files);
 
 // toi.csv beside the query file at `path`: one row a query, lo,hi; inf,inf for no collision. Empty where
 // there is no such file. Throws InputError where it is not as long as the queries or contradicts `collides`.
 std::vector<ExactToi> read_query_toi(const std::string& path, const std::vector<bool>& collides);
+// Where it would be.
+std::string query_toi_path(const std::string& path);
 
 }  // namespace app

@@ -84,7 +84,7 @@ class EarCutter {
   }
 
   void spend(std::size_t polygon, std::size_t tests) {
-    constexpr std::size_t kMost = 2'000'000'000;
+    constexpr std::size_t kMost = 200'000'000;  // half a second: what is refused is refused soon
     spent_ += tests;
     if (spent_ > kMost)
       throw InputError(file_.path + ": the polygon of face " + std::to_string(polygon) + " has " +

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "files/error.hpp"
+#include "files/input.hpp"
 #include "files/input_output.hpp"
 #include "files/queries/query_kind.hpp"
 #include "measure/timing.hpp"
@@ -82,7 +83,7 @@ void run_file(FileTally& file, const onset::Options& options, Output* csv, Progr
 std::vector<FileTally> plan(const std::vector<std::string>& files, const std::string& kind) {
   std::vector<FileTally> tallies;
   for (const std::string& file : files) {
-    open_input(file);
+    check_input(file);
     tallies.push_back({file, kind_of_file(file, kind), {}});
   }
   return tallies;
