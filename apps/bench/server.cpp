@@ -11,7 +11,6 @@
 //   TOLERANCE pairs THREADS                      positions to stored pairs
 //   intersections THREADS END, has-intersections THREADS END    of one frame (END: 0 or 1)
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,8 @@
 
 #include "bench/peers/stored_pairs.hpp"
 #include "files/error.hpp"
+#include "files/interrupts.hpp"
+#include "files/output.hpp"
 #include "files/scene/scene.hpp"
 #include "measure/timing.hpp"
 
@@ -27,33 +28,31 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class T>
-void put(std::ofstream& out, const T* data, std::size_t count) {
-  out.write(reinterpret_cast<const char*>(data), std::streamsize(count * sizeof(T)));
+void put(app::Output& out, const T* data, std::size_t count) {
+  out.write({reinterpret_cast<const char*>(data), count * sizeof(T)});
 }
 
 Json dump(const app::Scene& scene, const std::string& path) {
   const onset::Mesh& mesh = scene.mesh;
-  std::ofstream out(path, std::ios::binary);
+  app::Output out(path);
   const std::int64_t sizes[3] = {mesh.num_vertices(), mesh.num_edges(), mesh.num_faces()};
   put(out, sizes, 3);
   put(out, scene.x_t0.data(), std::size_t(scene.x_t0.size()));
   put(out, scene.x_t1.data(), std::size_t(scene.x_t1.size()));
   for (std::ptrdiff_t e = 0; e < mesh.num_edges(); ++e) put(out, mesh.edge(e).data(), 2);
   for (std::ptrdiff_t f = 0; f < mesh.num_faces(); ++f) put(out, mesh.face(f).data(), 3);
-  out.close();
-  if (!out) throw app::InputError(path + ": cannot be written");
+  out.publish();
   return {{"dumped", path}};
 }
 
 Json dump_pairs(const app::Scene& scene, const std::string& path) {
   const onset::Candidates found = onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1);
-  std::ofstream out(path, std::ios::binary);
+  app::Output out(path);
   const std::int64_t sizes[2] = {found.counts.vertex_face, found.counts.edge_edge};
   put(out, sizes, 2);
   put(out, found.vertex_face.data(), found.vertex_face.size());
   put(out, found.edge_edge.data(), found.edge_edge.size());
-  out.close();
-  if (!out) throw app::InputError(path + ": cannot be written");
+  out.publish();
   return {{"dumped", path}};
 }
 
@@ -143,6 +142,7 @@ class Server {
 }  // namespace
 
 int main(int argc, char** argv) try {
+  app::prepare_process();
   if (argc != 3) throw app::UsageError("two frames expected");
   const app::Scene scene = app::read_scene(argv[1], argv[2]);
   Server server(scene);

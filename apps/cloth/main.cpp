@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 
 #include "cloth/intersections.hpp"
 #include "cloth/output.hpp"
+#include "files/interrupts.hpp"
+#include "files/output.hpp"
 
 namespace {
 
@@ -46,9 +48,7 @@ class Outputs {
  public:
   explicit Outputs(const Arguments& a) : folder_(a.out) {
     if (!folder_.empty()) std::filesystem::create_directories(folder_);
-    if (a.json.empty()) return;
-    json_.open(a.json);
-    if (!json_) throw std::runtime_error(a.json + " cannot be written");
+    if (!a.json.empty()) json_.emplace(a.json);
   }
   void frame(int step, const cloth::Vector& x, const cloth::Scene& scene) const {
     if (folder_.empty()) return;
@@ -57,12 +57,15 @@ class Outputs {
     cloth::write_frame((std::filesystem::path(folder_) / name).string(), x, scene.faces);
   }
   void line(int step, const cloth::StepReport& report) {
-    if (json_.is_open()) json_ << cloth::json_line(step, report) << std::endl;
+    if (json_) json_->write(cloth::json_line(step, report) + "\n");
+  }
+  void finish() {
+    if (json_) json_->publish();
   }
 
  private:
   std::string folder_;
-  std::ofstream json_;
+  std::optional<app::Output> json_;
 };
 
 struct Summary {
@@ -109,6 +112,7 @@ int run(const Arguments& a) {
       bar.show(step);
     }
   }
+  outputs.finish();
   summary.print(a, scene);
   return summary.intersecting > 0;
 }
@@ -116,6 +120,7 @@ int run(const Arguments& a) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::prepare_process();
   CLI::App app("Cloth by Newton's method with a barrier, every step filtered by onset::LineSearch");
   Arguments arguments;
   add_options(app, arguments);

@@ -2,24 +2,27 @@
 
 #include <unistd.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <string_view>
+
+#include "files/output.hpp"
 
 namespace cloth {
 
 void write_frame(const std::string& path, const Vector& x, const std::vector<std::array<int, 3>>& faces) {
-  std::ofstream file(path, std::ios::binary);
-  file << "ply\nformat binary_little_endian 1.0\nelement vertex " << x.size() / 3
-       << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << faces.size()
-       << "\nproperty list uchar int vertex_indices\nend_header\n";
-  file.write(reinterpret_cast<const char*>(x.data()),
-             std::streamsize(std::size_t(x.size()) * sizeof(double)));
+  app::Output file(path);
+  file.write("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(x.size() / 3) +
+             "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+             std::to_string(faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n");
+  const auto bytes = [](const auto* data, std::size_t size) {
+    return std::string_view(reinterpret_cast<const char*>(data), size);
+  };
+  file.write(bytes(x.data(), std::size_t(x.size()) * sizeof(double)));
   for (const auto& f : faces) {
-    file.put(3);
-    file.write(reinterpret_cast<const char*>(f.data()), sizeof f);
+    file.write("\3");
+    file.write(bytes(f.data(), sizeof f));
   }
-  if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+  file.publish();
 }
 
 std::string json_line(int step, const StepReport& r) {

@@ -10,7 +10,7 @@
 
 namespace cloth {
 
-// Binary PLY, doubles. Throws std::runtime_error naming a file that cannot be written.
+// Binary PLY, doubles. Throws app::InputError naming a file that cannot be written.
 void write_frame(const std::string& path, const Vector& x, const std::vector<std::array<int, 3>>& faces);
 
 std::string json_line(int step, const StepReport& report);

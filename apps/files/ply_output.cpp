@@ -30,9 +30,8 @@ void write_ply_header(Output& file, const std::vector<PlyRows>& elements) {
   file.write("end_header\n");
 }
 
-void write_coloured_ply(const std::string& path, const Points& positions, const Faces& faces,
+void write_coloured_ply(Output& file, const Points& positions, const Faces& faces,
                         const std::vector<Colour>& colours) {
-  Output file(path);
   write_ply_header(file, {{"vertex",
                            std::size_t(positions.rows()),
                            {"double x", "double y", "double z", "uchar red", "uchar green", "uchar blue"}},
@@ -44,7 +43,6 @@ void write_coloured_ply(const std::string& path, const Points& positions, const 
   }
   for (Eigen::Index f = 0; f < faces.rows(); ++f)
     file.write(format("3 %lld %lld %lld\n", faces(f, 0), faces(f, 1), faces(f, 2)));
-  file.close();
 }
 
 int PlyLayer::add(const onset::Point& position, double toi, const onset::Point& normal) {
@@ -52,8 +50,7 @@ int PlyLayer::add(const onset::Point& position, double toi, const onset::Point& 
   return int(vertices.size()) - 1;
 }
 
-void write_ply(const std::string& path, const PlyLayer& layer, double earliest) {
-  Output file(path);
+void write_ply(Output& file, const PlyLayer& layer, double earliest) {
   std::vector<PlyRows> header{{"vertex",
                                layer.vertices.size(),
                                {"double x", "double y", "double z", "double nx", "double ny", "double nz",
@@ -73,7 +70,6 @@ void write_ply(const std::string& path, const PlyLayer& layer, double earliest) 
     file.write("\n");
   }
   for (const auto& e : layer.edges) file.write(format("%d %d\n", e[0], e[1]));
-  file.close();
 }
 
 }  // namespace app

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "files/input_output.hpp"
 #include "files/mesh/mesh_file.hpp"
+#include "files/output.hpp"
 
 namespace app {
 
@@ -21,8 +21,7 @@ Colour colour_of(double toi, double earliest);
 // Of each vertex the earliest time of impact of its contacts; -1: none.
 std::vector<double> toi_of_vertices(const onset::ActiveSet& set, std::size_t vertices);
 
-// Each throws InputError naming the path where it cannot be written.
-void write_coloured_ply(const std::string& path, const Points& positions, const Faces& faces,
+void write_coloured_ply(Output& file, const Points& positions, const Faces& faces,
                         const std::vector<Colour>& colours);
 
 struct PlyLayer {
@@ -38,7 +37,7 @@ struct PlyLayer {
 };
 
 // Properties x y z nx ny nz toi red green blue. Colours: colour_of(toi, earliest).
-void write_ply(const std::string& path, const PlyLayer& layer, double earliest);
+void write_ply(Output& file, const PlyLayer& layer, double earliest);
 
 // For whoever writes rows of its own: what the header says of one element, and the header.
 struct PlyRows {

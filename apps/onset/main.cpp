@@ -2,9 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include "files/error.hpp"
+#include "files/interrupts.hpp"
 #include "onset/command_line/commands.hpp"
 
 namespace {
@@ -15,6 +17,13 @@ int fail(app::ExitCode code, std::string message) {
     if (c == '\n') c = ' ';
   std::fprintf(stderr, "onset: %s\n", message.c_str());
   return code;
+}
+
+// What --help and --version print may meet a full disk, too.
+int print(const CLI::App& app, const CLI::ParseError& e) {
+  app.exit(e);
+  std::cout.flush();
+  return std::cout ? int(app::kExitOk) : fail(app::kExitBadInput, "stdout: cannot be written");
 }
 
 // After the subcommands, which would take the examples over.
@@ -39,6 +48,7 @@ void describe(CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::prepare_process();
   CLI::App app("Conservative continuous collision detection: when does a moving mesh first touch itself?");
   app::Run run;
   app::add_step(app, run);
@@ -60,7 +70,7 @@ int main(int argc, char** argv) {
   } catch (const app::NotClean&) {
     return app::kExitNotClean;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) return print(app, e);  // --help, --version
     return fail(app::kExitUsage, std::string(e.what()) + " (see onset --help)");
   } catch (const app::UsageError& e) {
     return fail(app::kExitUsage, e.what());

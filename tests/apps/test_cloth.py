@@ -3,8 +3,11 @@
 import json
 import os
 import pathlib
+import resource
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 BINARY = os.environ["ONSET_CLOTH"]
@@ -69,6 +72,33 @@ class Cloth(unittest.TestCase):
         header, size = header_and_size(self.folder / "out1" / names[-1])
         counts = {line.split()[1]: int(line.split()[2]) for line in header.splitlines() if line.startswith("element")}
         self.assertEqual(size, 24 * counts["vertex"] + 13 * counts["face"])
+
+    def test_what_was_there_is_kept_until_the_end(self):
+        """A run that is interrupted, or meets a full disk, leaves the old lines, whole frames, and nothing beside them."""
+        (self.folder / "steps.json").write_text("old")
+        (self.folder / "out").mkdir()
+        long = ["--steps", "100000", "--triangles", "200", "--json", "steps.json", "--out", "out"]
+        run = subprocess.Popen([BINARY, *long], cwd=self.folder, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 60
+        while not (self.folder / "out" / "frame_0003.ply").exists():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        run.send_signal(signal.SIGINT)
+        self.assertEqual((run.communicate(timeout=60)[1], run.returncode), (b"", -signal.SIGINT))
+        self.assertEqual((self.folder / "steps.json").read_text(), "old")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["out", "steps.json"])
+        frames = list((self.folder / "out").iterdir())
+        self.assertEqual({p.name[:6] for p in frames}, {"frame_"})
+        self.assertEqual(len({p.stat().st_size for p in frames}), 1)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+        done = subprocess.run([BINARY, *long], cwd=self.folder, capture_output=True, text=True, timeout=60, preexec_fn=limit)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("frame_0000.ply: cannot be written: File too large", done.stderr)
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()), sorted(p.name for p in frames))
+        for path in ["gone/steps.json", "out"]:
+            done = self.run_app("--steps", 1, "--triangles", 100, "--json", path)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn(path, done.stderr)
 
     def test_bad_usage(self):
         self.assertNotEqual(self.run_app("--scene", "none").returncode, 0)

@@ -81,7 +81,7 @@ void run_bench(const Inputs& inputs) {
   if (!inputs.a.empty() && inputs.b.empty()) throw UsageError("bench: B is missing");
   if (inputs.weld && (inputs.a.empty() || inputs.refine > 0))
     throw UsageError("bench: --weld is for the frames A and B as they are, not refined");
-  Outputs outputs(inputs);
+  Outputs outputs(inputs, {inputs.a, inputs.b});
   const std::vector<NamedCost> costs = bench_all(inputs, options, outputs);
   if (outputs.csv()) write_csv(*outputs.csv(), costs);
   Json json = {{"repeats", inputs.repeats}, {"scenes", Json::array()}};

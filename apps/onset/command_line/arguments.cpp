@@ -7,8 +7,6 @@
 #include <functional>
 #include <map>
 
-#include "files/error.hpp"
-
 namespace app {
 namespace {
 
@@ -127,7 +125,6 @@ onset::Options to_options(const Arguments& a) {
       {"conservative", onset::Exactness::conservative},
       {"certify", onset::Exactness::certify},
       {"exact", onset::Exactness::exact}};
-  if (!a.json.empty() && a.json == a.csv) throw UsageError("--json and --csv cannot both go to " + a.json);
   onset::Options o = a.options;
   o.norm = a.norm == "maximum" ? onset::Norm::maximum : onset::Norm::euclidean;
   o.broad_phase = broad.at(a.broad_phase);

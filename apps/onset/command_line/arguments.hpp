@@ -28,7 +28,7 @@ inline constexpr char kMeshHelp[] = "Mesh at the start of the step: .ply, .obj, 
 inline constexpr char kEndHelp[] =
     "The same mesh at its end: the same faces, wires and points in the same order";
 
-// What the library takes. Throws UsageError where two outputs share one destination.
+// What the library takes.
 onset::Options to_options(const Arguments& arguments);
 
 }  // namespace app

@@ -36,13 +36,14 @@ void run_check(const Inputs& inputs) {
   Scene scene = read_scene(inputs.a, inputs.b.empty() ? inputs.a : inputs.b);
   set_bodies(inputs, scene);
   join_copies(inputs, scene);
-  Outputs outputs(inputs);
+  Outputs outputs(inputs, {inputs.a, inputs.b});
+  if (!inputs.geometry.empty()) outputs.announce("--export", inputs.geometry);
   for (const std::string& note : scene.notes) outputs.note(note);
   const onset::StartReport report = look(scene, options);
   StartFindings findings{scene, report, std::nullopt};
   if (!inputs.b.empty()) findings.copies = at_the_end(report.copied_vertices, scene.x_t1);
   if (outputs.csv()) write_csv(*outputs.csv(), findings);
-  if (!inputs.geometry.empty()) write_start_ply(inputs.geometry, scene, report);
+  if (!inputs.geometry.empty()) write_start_ply(outputs.file(inputs.geometry), scene, report);
   outputs.finish(to_json(findings), describe_sizes(scene.mesh) + describe(findings));
   if (!report.clean()) throw NotClean();
 }

@@ -75,11 +75,12 @@ struct Inputs : Arguments {
 
 void run_demo(const Inputs& inputs) {
   const onset::Options options = to_options(inputs);
-  Outputs outputs(inputs);
+  Outputs outputs(inputs, {});
+  outputs.announce("--output", inputs.output);
   const DemoScene scene = make_demo_scene();
   const onset::Mesh mesh(scene.x_t0, scene.faces);
   const DemoResult result = compute(scene, mesh, options);
-  write_coloured_ply(inputs.output, result.x, scene.faces, colours(result));
+  write_coloured_ply(outputs.file(inputs.output), result.x, scene.faces, colours(result));
   const std::string file = std::filesystem::absolute(inputs.output).string();
   if (outputs.csv()) write_active_set_csv(*outputs.csv(), result.whole);
   outputs.finish(to_json(result, file), summary(scene, mesh, result, file));

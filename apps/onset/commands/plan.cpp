@@ -65,7 +65,7 @@ void report(const Scene& scene, const Inputs& inputs) {
       text += format("%s%d", i == 0 ? ": " : " ", rest[i]);
     text += rest.size() > 10 ? " ...\n" : "\n";
   }
-  Outputs outputs(inputs);
+  Outputs outputs(inputs, {inputs.a, inputs.b});
   for (const std::string& note : scene.notes) outputs.note(note);
   outputs.finish(json, text);
 }

@@ -5,7 +5,6 @@
 
 #include "files/error.hpp"
 #include "files/input.hpp"
-#include "files/input_output.hpp"
 #include "files/queries/query_kind.hpp"
 #include "measure/timing.hpp"
 #include "onset/command_line/arguments.hpp"
@@ -131,7 +130,7 @@ struct Inputs : Arguments {
 void run_queries(const Inputs& inputs) {
   const onset::Options options = to_options(inputs);
   std::vector<FileTally> files = plan(inputs.files, inputs.kind);
-  Outputs outputs(inputs);
+  Outputs outputs(inputs, inputs.files);
   Tally total;
   if (outputs.csv()) outputs.csv()->write("file,index,kind,outcome,toi\n");
   {

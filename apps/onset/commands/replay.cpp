@@ -73,7 +73,9 @@ struct Inputs : Arguments {
 
 void run_replay(const Inputs& inputs) {
   const onset::Options options = to_options(inputs);
-  Outputs outputs(inputs);
+  std::vector<std::string> read = inputs.files;
+  for (const std::string& file : inputs.files) read.push_back(expectation_file(file));
+  Outputs outputs(inputs, read);
   std::vector<Replayed> rows;
   {
     const Progress progress("replay");

@@ -27,7 +27,7 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
       const onset::Options options = to_options(*inputs);
       Scene scene = read_scene(inputs->a, inputs->b);
       set_bodies(*inputs, scene);
-      Outputs outputs(*inputs);
+      Outputs outputs(*inputs, {inputs->a, inputs->b});
       for (const std::string& note : scene.notes) outputs.note(note);
       work(scene, options, outputs);
     };
@@ -50,7 +50,7 @@ static std::string seam_hint(const Scene& scene) {
 }
 
 void note_start(const Scene& scene, const onset::Options& options, bool in_contact, Outputs& outputs) {
-  onset::Options all;  // without budgets, beyond which "there may be" is the answer
+  onset::Options all;  // of the budgets the time alone, beyond which "there may be" is the answer
   all.threads = options.threads, all.broad_phase = options.broad_phase,
   all.instruction_set = options.instruction_set;
   const bool meets = onset::has_intersections(scene.mesh, scene.x_t0, all);

@@ -13,8 +13,8 @@ namespace app {
 
 using SceneWork = std::function<void(const Scene& scene, const onset::Options& options, Outputs& outputs)>;
 
-// Adds the subcommand with its arguments A and B. Its run reads the scene, opens the outputs, then calls
-// `work`. Returns the subcommand, and its arguments in `arguments` where that is not null.
+// Adds the subcommand with its arguments A and B. Its run reads the scene, looks at where the outputs go,
+// then calls `work`. Returns the subcommand, and its arguments in `arguments` where that is not null.
 CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, const std::string& help,
                             const std::string& csv_columns, SceneWork work,
                             std::shared_ptr<Arguments>* arguments = nullptr);

@@ -94,18 +94,23 @@ struct Exporter {
 
 }  // namespace
 
-void write_geometry(const std::string& name, const Scene& scene, const onset::Options& options,
-                    const onset::ActiveSet& set) {
+std::vector<std::string> geometry_files(const std::string& path) {
   const std::string ending = ".ply";
-  const bool has = name.size() > ending.size() && name.substr(name.size() - ending.size()) == ending;
-  const std::string stem = has ? name.substr(0, name.size() - ending.size()) : name;
+  const bool has = path.size() > ending.size() && path.substr(path.size() - ending.size()) == ending;
+  const std::string stem = has ? path.substr(0, path.size() - ending.size()) : path;
+  return {stem + "-contacts.ply", stem + "-swept.ply", stem + "-candidates.ply"};
+}
+
+void write_geometry(const std::string& path, const Scene& scene, const onset::Options& options,
+                    const onset::ActiveSet& set, Outputs& outputs) {
+  const std::vector<std::string> files = geometry_files(path);
   const Exporter exporter{scene, set};
   const double earliest = exporter.earliest();
-  write_ply(stem + "-contacts.ply", exporter.contacts(), earliest);
-  write_ply(stem + "-swept.ply", exporter.swept(), earliest);
+  write_ply(outputs.file(files[0]), exporter.contacts(), earliest);
+  write_ply(outputs.file(files[1]), exporter.swept(), earliest);
   onset::Options all = options;
   all.memory_limit = onset::Options().memory_limit;
-  write_ply(stem + "-candidates.ply",
+  write_ply(outputs.file(files[2]),
             exporter.candidates(onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1, all)),
             earliest);
 }

@@ -17,6 +17,12 @@ std::string without_ending(const std::string& path, const std::string& ending) {
   return path.substr(size) == ending ? path.substr(0, size) : path;
 }
 
+constexpr onset::PairKind kKinds[] = {onset::PairKind::vertex_face, onset::PairKind::edge_edge};
+
+std::string file_of(const std::string& path, onset::PairKind kind) {
+  return without_ending(path, ".csv") + "-" + kind_name(kind);
+}
+
 Json to_json(const onset::Options& o) {
   return {{"tolerance", *o.tolerance},
           {"min_separation", o.min_separation},
@@ -47,19 +53,22 @@ void write_query(Output& csv, const TruthQuery& query) {
 
 }  // namespace
 
-std::vector<std::string> write_dump(const std::string& path, const std::vector<DumpedPair>& pairs,
-                                    const Points& x_t0, const Points& x_t1, const onset::Options& given,
-                                    double tolerance) {
+std::vector<std::string> dump_files(const std::string& path) {
+  std::vector<std::string> files;
+  for (const onset::PairKind kind : kKinds)
+    for (const char* ending : {".csv", ".json"}) files.push_back(file_of(path, kind) + ending);
+  return files;
+}
+
+void write_dump(const std::string& path, const std::vector<DumpedPair>& pairs, const Points& x_t0,
+                const Points& x_t1, const onset::Options& given, double tolerance, Outputs& outputs) {
   onset::Options options = given;
   options.tolerance = tolerance;
-  std::vector<std::string> written;
-  for (const onset::PairKind kind : {onset::PairKind::vertex_face, onset::PairKind::edge_edge}) {
-    const std::string name = without_ending(path, ".csv") + "-" + kind_name(kind);
-    std::optional<Output> csv;
+  for (const onset::PairKind kind : kKinds) {
+    const std::string name = file_of(path, kind);
     Json queries = Json::array();
     for (const DumpedPair& dumped : pairs) {
       if (dumped.pair.kind != kind) continue;
-      if (!csv) csv.emplace(name + ".csv");
       TruthQuery query;
       for (std::size_t i = 0; i < 4; ++i) {
         query.t0[i] = point(x_t0, dumped.pair.vertices[i]);
@@ -67,7 +76,7 @@ std::vector<std::string> write_dump(const std::string& path, const std::vector<D
       }
       const onset::QueryResult r = ask(kind, query, options);
       query.collides = r.collides();
-      write_query(*csv, query);
+      write_query(outputs.file(name + ".csv"), query);
       queries.push_back({{"a", dumped.pair.a},
                          {"b", dumped.pair.b},
                          {"why", dumped.why},
@@ -75,18 +84,16 @@ std::vector<std::string> write_dump(const std::string& path, const std::vector<D
                          {"toi", r.toi},
                          {"checks", r.checks}});
     }
-    if (!csv) continue;
-    csv->close();
-    Output json(name + ".json");
-    json.write(Json({{"options", to_json(options)}, {"queries", queries}}).dump(2) + "\n");
-    json.close();
-    written.push_back(name + ".csv");
+    if (queries.empty()) continue;
+    outputs.file(name + ".json")
+        .write(Json({{"options", to_json(options)}, {"queries", queries}}).dump(2) + "\n");
   }
-  return written;
 }
 
+std::string expectation_file(const std::string& path) { return without_ending(path, ".csv") + ".json"; }
+
 std::optional<Expectation> read_expectation(const std::string& path) {
-  const std::string name = without_ending(path, ".csv") + ".json";
+  const std::string name = expectation_file(path);
   if (!std::filesystem::exists(name)) return std::nullopt;
   try {
     std::ifstream in(name);

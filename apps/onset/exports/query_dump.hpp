@@ -17,13 +17,14 @@ struct DumpedPair {
   const char* why;  // "limiting", "worst", "contact", "budget"
 };
 
-// Writes NAME-vf.csv and NAME-ee.csv (eight rows a query, exactly the doubles; truth: what onset answers) for
-// those kinds that there are, NAME being `path` without ".csv", and beside each NAME-vf.json, NAME-ee.json:
-// the options and what each query is answered. `tolerance`: the one the step was taken with, model length.
-// Returns the CSV paths.
-std::vector<std::string> write_dump(const std::string& path, const std::vector<DumpedPair>& pairs,
-                                    const Points& x_t0, const Points& x_t1, const onset::Options& options,
-                                    double tolerance);
+// NAME-vf.csv, NAME-vf.json, NAME-ee.csv and NAME-ee.json, NAME being `path` without ".csv".
+std::vector<std::string> dump_files(const std::string& path);
+
+// Writes the CSV (eight rows a query, exactly the doubles; truth: what onset answers) of those kinds that
+// there are, and the JSON beside it: the options that a query depends on, and what each is answered with
+// them. `tolerance`: the one the step was taken with, model length.
+void write_dump(const std::string& path, const std::vector<DumpedPair>& pairs, const Points& x_t0,
+                const Points& x_t1, const onset::Options& options, double tolerance, Outputs& outputs);
 
 // What a dump says that its queries are answered.
 struct Expectation {
@@ -36,8 +37,9 @@ struct Expectation {
   std::vector<Answer> answers;
 };
 
-// Beside the CSV file `path`; none where there is no such file. Throws InputError where it cannot be
-// understood.
+// The file of it beside the CSV file `path`.
+std::string expectation_file(const std::string& path);
+// None where there is no such file. Throws InputError where it cannot be understood.
 std::optional<Expectation> read_expectation(const std::string& path);
 
 }  // namespace app

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "files/error.hpp"
 #include "onset/exports/geometry_files.hpp"
 #include "onset/exports/query_dump.hpp"
 
@@ -32,23 +33,33 @@ void add_scene_files(CLI::App& command, SceneFiles& files) {
       ->type_name("NAME");
 }
 
+void announce(const SceneFiles& files, Outputs& outputs) {
+  for (const char* option : {"--dump", "--export"})
+    if ((option[2] == 'd' ? files.dump : files.geometry) == "-")
+      throw UsageError(std::string(option) + ": a name for several files expected, not -");
+  if (!files.dump.empty())
+    for (const std::string& path : dump_files(files.dump)) outputs.announce("--dump", path);
+  if (!files.geometry.empty())
+    for (const std::string& path : geometry_files(files.geometry)) outputs.announce("--export", path);
+}
+
 void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
-                 const onset::StepResult& result) {
+                 const onset::StepResult& result, Outputs& outputs) {
   if (!files.dump.empty()) {
     std::vector<DumpedPair> pairs;
     if (result.limiting) pairs.push_back({*result.limiting, "limiting"});
     add_worst(pairs, result.stats);
-    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, result.stats.tolerance);
+    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, result.stats.tolerance, outputs);
   }
   if (files.geometry.empty()) return;
   onset::Options earliest = options;
   earliest.window = 0;
   write_geometry(files.geometry, scene, options,
-                 onset::construct_active_set(scene.mesh, scene.x_t0, scene.x_t1, earliest));
+                 onset::construct_active_set(scene.mesh, scene.x_t0, scene.x_t1, earliest), outputs);
 }
 
 void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
-                 const onset::ActiveSet& set) {
+                 const onset::ActiveSet& set, Outputs& outputs) {
   if (!files.dump.empty()) {
     std::vector<std::size_t> order(set.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
@@ -60,9 +71,9 @@ void write_files(const SceneFiles& files, const Scene& scene, const onset::Optio
       if (k < kDumpedContacts || gave_up) pairs.push_back({set[order[k]], gave_up ? "budget" : "contact"});
     }
     add_worst(pairs, set.stats);
-    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, set.stats.tolerance);
+    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, set.stats.tolerance, outputs);
   }
-  if (!files.geometry.empty()) write_geometry(files.geometry, scene, options, set);
+  if (!files.geometry.empty()) write_geometry(files.geometry, scene, options, set, outputs);
 }
 
 }  // namespace app

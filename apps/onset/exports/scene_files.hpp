@@ -6,6 +6,7 @@
 
 #include "files/scene/scene.hpp"
 #include "onset/command_line/arguments.hpp"
+#include "onset/results/outputs.hpp"
 
 namespace app {
 
@@ -16,11 +17,14 @@ struct SceneFiles {
 // --dump and --export.
 void add_scene_files(CLI::App& command, SceneFiles& files);
 
+// Before the work starts.
+void announce(const SceneFiles& files, Outputs& outputs);
+
 // The pairs that matter: a step's limiting and worst pair; of an active set the earliest contacts, those that
 // spent their budget, and the worst pair.
 void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
-                 const onset::StepResult& result);
+                 const onset::StepResult& result, Outputs& outputs);
 void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
-                 const onset::ActiveSet& set);
+                 const onset::ActiveSet& set, Outputs& outputs);
 
 }  // namespace app

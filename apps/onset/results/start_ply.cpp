@@ -53,9 +53,8 @@ StartLayer make_layer(const onset::Mesh& mesh, const onset::StartReport& report)
 
 }  // namespace
 
-void write_start_ply(const std::string& path, const Scene& scene, const onset::StartReport& report) {
+void write_start_ply(Output& file, const Scene& scene, const onset::StartReport& report) {
   const StartLayer layer = make_layer(scene.mesh, report);
-  Output file(path);
   write_ply_header(
       file, {{"vertex",
               layer.corners.size(),
@@ -69,7 +68,6 @@ void write_start_ply(const std::string& path, const Scene& scene, const onset::S
   }
   for (const auto& f : layer.faces) file.write(format("3 %zu %zu %zu\n", f[0], f[1], f[2]));
   for (const auto& e : layer.edges) file.write(format("%zu %zu\n", e[0], e[1]));
-  file.close();
 }
 
 }  // namespace app

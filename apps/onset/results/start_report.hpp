@@ -30,7 +30,7 @@ void write_csv(Output& csv, const StartFindings& findings);
 inline constexpr char kStartColumns[] = "fault,kind,a,b,v0,v1,v2,v3,v4,distance,separation";
 
 // Edges that intersect faces red, the faces yellow, what touches without that blue; `id`: the vertex that
-// each corner is. Throws InputError where it cannot be written.
-void write_start_ply(const std::string& path, const Scene& scene, const onset::StartReport& report);
+// each corner is.
+void write_start_ply(Output& file, const Scene& scene, const onset::StartReport& report);
 
 }  // namespace app

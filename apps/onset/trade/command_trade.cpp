@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "files/error.hpp"
+#include "files/queries/truth_file.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
 #include "onset/results/progress.hpp"
@@ -31,9 +32,16 @@ std::unique_ptr<Subject> subject_of(const Inputs& inputs, const onset::Options& 
   return scene_subject(inputs.a, inputs.b, inputs.truth, base);
 }
 
+std::vector<std::string> read_by(const Inputs& inputs) {
+  std::vector<std::string> paths = truth_paths(inputs.truth);
+  paths.insert(paths.end(), {inputs.a, inputs.b});
+  for (const std::string& file : inputs.queries) paths.insert(paths.end(), {file, query_toi_path(file)});
+  return paths;
+}
+
 void run_trade(const Inputs& inputs) {
   const onset::Options base = to_options(inputs);
-  Outputs outputs(inputs);
+  Outputs outputs(inputs, read_by(inputs));
   std::unique_ptr<Subject> subject;
   std::vector<Measured> measured;
   {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "files/input_output.hpp"
+#include "files/output.hpp"
 #include "files/queries/query_file.hpp"
 #include "files/queries/query_kind.hpp"
 #include "files/queries/truth_file.hpp"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "files/input_output.hpp"
+#include "files/output.hpp"
 #include "files/queries/truth_file.hpp"
 #include "measure/system.hpp"
 #include "onset/results/report.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "files/input_output.hpp"
+#include "files/output.hpp"
 #include "onset/results/report.hpp"
 
 namespace app {
