@@ -351,5 +351,31 @@ class Special(OutputTest):
         self.assertTrue(self.shell('"$0" demo --output -').startswith("ply\n"))
 
 
+class Dumps(OutputTest):
+    def test_replays_are_the_same_whatever_the_options(self):
+        a, b = self.soup()
+        ways = itertools.product(["conservative", "certify", "exact"],
+                                 [[], ["--min-separation", "0.01"], ["--min-separation", "0.01", "--norm", "maximum"]],
+                                 [[], ["--narrow-phase", "inclusion", "--max-checks", "100000"], ["--touching-may-pass-through"],
+                                  ["--tolerance", "1e-3", "--max-checks", "7"]])
+        queries = 0
+        for certainty, separation, more in ways:
+            options = ["--certainty", certainty, *separation, *more]
+            self.succeed("active-set", a, b, *options, "--dump", "d")
+            result = self.json("replay", "d-vf.csv", "d-ee.csv")
+            self.assertEqual(result["differing"], 0, options)
+            queries += len(result["queries"])
+            self.assertEqual(json.loads((self.folder / "d-vf.json").read_text())["options"]["certainty"], certainty)
+        self.assertGreater(queries, 500)
+
+    def test_budgets_of_the_call_are_not_those_of_a_query(self):
+        a, b = self.soup()
+        for limit in [["--check-limit", "100"], ["--time-limit", "0"], ["--memory-limit", "512"]]:
+            self.succeed("active-set", a, b, *limit, "--dump", "d")
+            files = sorted(name for name in os.listdir(self.folder) if name.startswith("d-") and name.endswith(".csv"))
+            if files:
+                self.assertEqual(self.json("replay", *files)["differing"], 0, limit)
+
+
 if __name__ == "__main__":
     unittest.main()

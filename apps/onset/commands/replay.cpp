@@ -1,6 +1,7 @@
 // onset replay: the queries of a dump once more.
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <stdexcept>
 
 #include "files/error.hpp"
 #include "files/queries/query_kind.hpp"
@@ -28,6 +29,17 @@ std::string compare(const onset::QueryResult& r, const Expectation::Answer& e) {
   return "same";
 }
 
+// Options out of a file may be out of range.
+onset::QueryResult answer(const std::string& file, onset::PairKind kind, const TruthQuery& query,
+                          const onset::Options& options, bool has_expectation) {
+  try {
+    return ask(kind, query, options);
+  } catch (const std::invalid_argument& e) {
+    if (has_expectation) throw InputError(expectation_file(file) + ": " + e.what());
+    throw;
+  }
+}
+
 void replay(const std::string& file, const std::string& kind_name, const onset::Options& given,
             std::vector<Replayed>& rows) {
   const std::vector<TruthQuery> queries = read_queries(file);
@@ -39,7 +51,7 @@ void replay(const std::string& file, const std::string& kind_name, const onset::
   onset::Options options = expected ? expected->options : given;
   options.instruction_set = given.instruction_set;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const onset::QueryResult r = ask(kind, queries[i], options);
+    const onset::QueryResult r = answer(file, kind, queries[i], options, expected.has_value());
     rows.push_back({file, kind, i, r, expected ? compare(r, expected->answers[i]) : ""});
   }
 }
@@ -102,6 +114,7 @@ void add_replay(CLI::App& app, Run& run) {
   command
       ->add_option("FILE", inputs->files, "NAME-vf.csv or NAME-ee.csv, from step or active-set --dump NAME")
       ->required();
+
   add_kind(*command, inputs->kind, ": vf or ee");
   add_common_options(*command, *inputs, "index,kind,outcome,toi,checks,verdict");
   command->footer(

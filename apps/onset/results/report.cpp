@@ -8,6 +8,12 @@ namespace app {
 
 const char* norm_name(onset::Norm norm) { return norm == onset::Norm::maximum ? "maximum" : "euclidean"; }
 
+const char* exactness_name(onset::Exactness level) {
+  return level == onset::Exactness::exact     ? "exact"
+         : level == onset::Exactness::certify ? "certify"
+                                              : "conservative";
+}
+
 Json to_json(const onset::PairCounts& counts) {
   return {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
 }

@@ -14,7 +14,8 @@
 
 namespace app {
 
-const char* norm_name(onset::Norm norm);        // "euclidean" or "maximum"
+const char* norm_name(onset::Norm norm);  // "euclidean" or "maximum"
+const char* exactness_name(onset::Exactness level);
 Json to_json(const onset::PairCounts& counts);  // {vf, ee}
 // An outcome in the words of the output: max_checks is "budget" there.
 const char* outcome_name(onset::Outcome outcome);

@@ -46,17 +46,13 @@ Json early_json(const std::optional<Earliness>& e) {
   return {{"pairs", e->pairs}, {"mean", e->mean()}, {"max", e->most}, {"zero", e->zero}, {"late", e->late}};
 }
 
-const char* word(onset::Exactness c) {
-  return c == onset::Exactness::exact ? "exact" : c == onset::Exactness::certify ? "certify" : "conservative";
-}
-
 Json options_json(const onset::Options& o) {
   return {{"tolerance", or_null(o.tolerance)},
           {"relative_tolerance", o.relative_tolerance},
           {"min_separation", o.min_separation},
           {"norm", norm_name(o.norm)},
           {"max_checks", o.max_checks},
-          {"certainty", word(o.exactness)},
+          {"certainty", exactness_name(o.exactness)},
           {"threads", o.threads}};
 }
 

@@ -1,5 +1,6 @@
 """Files that are made to hurt: each ends in one line that names the file and the place, within a second and 64 MiB."""
 
+import json
 import math
 import os
 import socket
@@ -174,6 +175,33 @@ class Truth(AppTest):
             with self.subTest(words=words):
                 self.write("toi.csv", data)
                 self.must_refuse(["toi.csv", *words], "trade", "--queries", path)
+
+
+class Expectations(AppTest):
+    def test_of_a_dump(self):
+        a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
+        self.succeed("step", a, b, "--dump", "d")
+        whole = (self.folder / "d-vf.json").read_text()
+        good = json.loads(whole)
+
+        def changed(part, key, value):
+            data = json.loads(whole)
+            (data["options"] if part == "options" else data["queries"][0])[key] = value
+            return json.dumps(data)
+
+        for data, *words in [("", "d-vf.json"), ("{}", "options"), ("[]", "d-vf.json"), ("[" * 10**6, "levels"), ('{"a":' * 10**6, "levels"),
+                             (json.dumps({"options": good["options"], "queries": 7}), "d-vf.json"),
+                             (json.dumps({"options": good["options"], "queries": []}), "answers beside it to 0"),
+                             (changed("options", "tolerance", -1), "tolerance"), (changed("options", "tolerance", "x"), "d-vf.json"),
+                             (changed("options", "max_checks", 1e300), "1e+300"), (changed("options", "max_checks", 2**64 - 1), "18446744073709551615"),
+                             (changed("options", "max_checks", 0), "max_checks"), (changed("options", "norm", "manhattan"), "manhattan"),
+                             (changed("options", "certainty", "sure"), "sure"), (changed("options", "narrow_phase", 3), "3"),
+                             (changed("options", "min_separation", -1), "min_separation"), (changed("queries", "toi", "soon"), "d-vf.json"),
+                             (changed("queries", "checks", 1.5), "1.5"), (changed("queries", "outcome", None), "d-vf.json"),
+                             (whole[:-20], "d-vf.json"), (whole + "\0", "byte 0")]:
+            with self.subTest(words=words):
+                self.write("d-vf.json", data)
+                self.must_refuse(["d-vf.", *words], "replay", "d-vf.csv")
 
 
 if __name__ == "__main__":
