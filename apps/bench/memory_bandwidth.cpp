@@ -10,11 +10,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
 
+#include "files/text_lines.hpp"
 #include "measure/timing.hpp"
 
 namespace {
@@ -69,8 +70,9 @@ double gigabytes_a_second(std::vector<Arrays>& arrays, const std::function<void(
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int mebibytes = argc > 1 ? std::atoi(argv[1]) : 256;
-  if (mebibytes < 1) {
+  constexpr std::int64_t kMost = 1 << 20;
+  const std::optional<std::int64_t> mebibytes = argc > 1 ? app::parse_whole(argv[1]) : 256;
+  if (!mebibytes || *mebibytes < 1 || *mebibytes > kMost) {
     std::fprintf(stderr, "usage: onset_memory_bandwidth [MIB]\n");
     return 2;
   }
@@ -79,7 +81,7 @@ int main(int argc, char** argv) {
       "|\n|---|---|---|---|---|\n");
   double sum = 0;
   for (std::size_t threads = 1; threads <= 2; ++threads) {
-    std::vector<Arrays> arrays(threads, Arrays(std::size_t(mebibytes) << 20));
+    std::vector<Arrays> arrays(threads, Arrays(std::size_t(*mebibytes) << 20));
     const double size = sizeof(Record), random = gigabytes_a_second(arrays, gather, size);
     std::printf("| %zu | %.1f | %.1f | %.1f | %.2f |\n", threads, gigabytes_a_second(arrays, copy, 2 * size),
                 gigabytes_a_second(arrays, add_up, size), random, size * double(threads) / random);

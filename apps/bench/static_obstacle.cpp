@@ -4,12 +4,14 @@
 // Prints CPU milliseconds a call, one thread, median over repeats, the obstacle's first call left out.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <onset/onset.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "files/text_lines.hpp"
 #include "measure/timing.hpp"
 
 namespace {
@@ -95,7 +97,12 @@ double median(const std::vector<double>& x) { return app::spread(x).median; }
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 100;
+  const std::optional<std::int64_t> asked = argc > 1 ? app::parse_whole(argv[1]) : 100;
+  if (!asked || *asked < 1 || *asked > INT32_MAX) {
+    std::fprintf(stderr, "usage: onset_static_obstacle [REPEATS [NAME]]\n");
+    return 2;
+  }
+  const int repeats = int(*asked);
   const Sheet cloth = sheet(kCloth, 0.5, 0, 0.02);
   const int vertices = int(cloth.x_t0.rows());
   const Sheet far = joined(cloth, sheet(kObstacle, 1, -1, 0.1)),

@@ -3,12 +3,14 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "cloth/intersections.hpp"
 #include "cloth/output.hpp"
 #include "files/interrupts.hpp"
 #include "files/output.hpp"
+#include "files/text_lines.hpp"
 
 namespace {
 
@@ -20,6 +22,17 @@ struct Arguments {
   cloth::Settings settings;
 };
 
+// What a number must be, in words; CLI11's own checks let NaN pass, and take an empty word for 0.
+CLI::Validator number(double least, bool is_whole, const std::string& words) {
+  return {[=](const std::string& text) {
+            const std::optional<double> value = app::parse_double(text);
+            const bool fits = value && std::isfinite(*value) && *value >= least;
+            if (fits && (!is_whole || app::parse_whole(text))) return std::string();
+            return words + " expected, not '" + text + "'";
+          },
+          ""};
+}
+
 void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--scene", a.scene, "sphere, twist or pile")
       ->check(CLI::IsMember({"sphere", "twist", "pile"}))
@@ -27,16 +40,19 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--triangles", a.triangles, "Of the cloth, about")
       ->check(CLI::Range(40, 1000000))
       ->capture_default_str();
-  app.add_option("--steps", a.steps, "Time steps")->check(CLI::NonNegativeNumber)->capture_default_str();
-  app.add_option("--seed", a.seed, "Of the ripples and turns at the start")->capture_default_str();
+  const CLI::Validator count = number(0, true, "a whole number >= 0");
+  app.add_option("--steps", a.steps, "Time steps")->check(count)->capture_default_str();
+  app.add_option("--seed", a.seed, "Of the ripples and turns at the start")
+      ->check(count)
+      ->capture_default_str();
   app.add_option("--time-step", a.settings.time_step, "Seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(number(std::numeric_limits<double>::min(), false, "a finite number > 0"))
       ->capture_default_str();
   app.add_option("--friction", a.settings.friction, "Coefficient")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number(0, false, "a finite number >= 0"))
       ->capture_default_str();
   app.add_option("--threads", a.settings.options.threads, "Of the collision phase; 0: all there are")
-      ->check(CLI::NonNegativeNumber)
+      ->check(count)
       ->capture_default_str();
   app.add_option("--out", a.out, "A frame a step goes into this folder")->type_name("FOLDER");
   app.add_option("--json", a.json, "A line a step goes into this file")->type_name("FILE");

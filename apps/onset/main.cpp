@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 
 #include "files/error.hpp"
@@ -74,6 +75,8 @@ int main(int argc, char** argv) {
     return fail(app::kExitUsage, std::string(e.what()) + " (see onset --help)");
   } catch (const app::UsageError& e) {
     return fail(app::kExitUsage, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(app::kExitBadInput, "not enough memory");
   } catch (const std::exception& e) {
     return fail(app::kExitBadInput, e.what());
   }

@@ -107,6 +107,28 @@ class Options(AppTest):
             for name in ["--norm", "--broad-phase", "--narrow-phase", "--kernel"]:
                 self.must_fail(USAGE, [name, "sideways"], *command, name, "sideways")
 
+    def test_of_single_commands(self):
+        a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
+        for value in ["nan", "inf", "-1", "1e400", "1x", "", "x"]:
+            for option in ["--seconds", "--target-time-us", "--target-earliness"]:
+                self.must_fail(USAGE, [option, "finite number >= 0", f"'{value}'"], "trade", a, b, option, value)
+            for option in ["--time-limit", "--window"]:
+                self.must_fail(USAGE, [option, "finite number >= 0", f"'{value}'"], "active-set", a, b, option, value)
+        for value in ["nan", "-1", "1.5", "1x", "", "0x1", "1e0", " 1", "99999999999999999999"]:
+            for command, option in [(("trade", a, b), "--repeats"), (("trade", a, b), "--target-positives"),
+                                    (("trade", a, b), "--target-budget"), (("bench", a, b), "--repeats"),
+                                    (("bench", a, b), "--refine"), (("bench",), "--cloth"), (("step", a, b), "--static-body"),
+                                    (("step", a, b), "--rigid-body"), (("step", a, b), "--check-limit"),
+                                    (("step", a, b), "--memory-limit")]:
+                self.must_fail(USAGE, [option, "whole number", f"'{value}'"], *command, option, value)
+        for arguments in [("step", "", b), ("step", a, ""), ("check", ""), ("queries", ""), ("replay", ""), ("demo", "--output", ""),
+                          ("trade", a, b, "--truth", ""), ("filters", a, "--json", ""), ("bench", "", b)]:
+            self.must_fail(USAGE, ["a path expected"], *arguments)
+
+    def test_that_the_library_refuses(self):
+        a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
+        self.must_fail(BAD, ["min_separation"], "step", a, b, "--min-separation", "1e308")
+
     def test_that_do_not_go_together(self):
         a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
         self.must_fail(USAGE, ["--tolerance", "--relative-tolerance"], "step", a, b, "--tolerance", "1",

@@ -100,6 +100,15 @@ class Cloth(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
             self.assertIn(path, done.stderr)
 
+    def test_numbers(self):
+        for option, values in [("--friction", ["nan", "inf", "-1", "1x", ""]), ("--time-step", ["nan", "inf", "0", "-1", "1x", ""]),
+                               ("--seed", ["", "-1", "1.5", "x"]), ("--steps", ["", "-1", "1e3", "99999999999999999999"]),
+                               ("--threads", ["", "-1", "nan"]), ("--triangles", ["", "-1", "41x"])]:
+            for value in values:
+                done = self.run_app("--steps", 1, "--triangles", 100, option, value)
+                self.assertGreater(done.returncode, 100, done.args)
+                self.assertIn(option, done.stderr)
+
     def test_bad_usage(self):
         self.assertNotEqual(self.run_app("--scene", "none").returncode, 0)
         done = self.run_app("--steps", 1, "--triangles", 100, "--out", "/dev/null/frames")

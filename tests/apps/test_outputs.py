@@ -284,6 +284,8 @@ class Names(OutputTest):
             self.must_fail(USAGE, ["--csv", option, name], "step", self.a, self.b, "--csv", name, option, "out")
         self.must_fail(USAGE, ["--csv", "--output"], "demo", "--output", "x.ply", "--csv", "x.ply")
         self.must_fail(USAGE, ["--dump"], "step", self.a, self.b, "--dump", "-")
+        for option in ["--csv", "--json", "--dump", "--export"]:
+            self.must_fail(USAGE, [option, "path"], "step", self.a, self.b, option, "")
 
     def test_links_are_followed_and_kept(self):
         (self.folder / "inner").mkdir()

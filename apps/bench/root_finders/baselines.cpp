@@ -8,8 +8,9 @@
 // finder answered and the microseconds it took, the better of two runs for each query, CPU time where it took
 // long.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@
 #include "files/error.hpp"
 #include "files/queries/query_kind.hpp"
 #include "files/queries/truth_file.hpp"
+#include "files/text_lines.hpp"
 #include "measure/system.hpp"
 #include "measure/timing.hpp"
 
@@ -138,6 +140,20 @@ Json measure_file(const std::string& path, const Settings& settings) {
   return row;
 }
 
+std::size_t count(const char* option, const char* text) {
+  const std::optional<std::int64_t> value = app::parse_whole(text);
+  if (!value || *value < 1 || *value > INT32_MAX)
+    throw app::UsageError(std::string(option) + ": a whole number of 1 or more, not " + text);
+  return std::size_t(*value);
+}
+
+double length(const char* option, const char* text) {
+  const std::optional<double> value = app::parse_double(text);
+  if (!value || !std::isfinite(*value) || *value < 0)
+    throw app::UsageError(std::string(option) + ": a length, not " + text);
+  return *value;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -149,13 +165,13 @@ int main(int argc, char** argv) try {
       return argv[++i];
     };
     if (!std::strcmp(argv[i], "--every"))
-      settings.every = std::max<std::size_t>(1, std::strtoull(value(), nullptr, 10));
+      settings.every = count("--every", value());
     else if (!std::strcmp(argv[i], "--boxes"))
-      settings.limits.boxes = std::max(1, std::atoi(value()));
+      settings.limits.boxes = int(count("--boxes", value()));
     else if (!std::strcmp(argv[i], "--separation"))
-      settings.separation = std::strtod(value(), nullptr);
+      settings.separation = length("--separation", value());
     else if (!std::strcmp(argv[i], "--tolerance"))
-      settings.tolerance = settings.limits.width = std::strtod(value(), nullptr);
+      settings.tolerance = settings.limits.width = length("--tolerance", value());
     else
       files.push_back(argv[i]);
   }

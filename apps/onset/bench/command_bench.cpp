@@ -9,6 +9,7 @@
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/bodies.hpp"
 #include "onset/command_line/commands.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/results/progress.hpp"
 
 namespace app {
@@ -99,25 +100,19 @@ void add_bench(CLI::App& app, Run& run) {
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command =
       app.add_subcommand("bench", "Times, pairs at each stage and memory of the library's calls on a scene");
-  command->add_option("A", inputs->a, kMeshHelp);
-  command->add_option("B", inputs->b, kEndHelp);
+  command->add_option("A", inputs->a, kMeshHelp)->check(path_fault);
+  command->add_option("B", inputs->b, kEndHelp)->check(path_fault);
   command
       ->add_option("--cloth", inputs->cloths,
                    "Instead of A and B, a generated scene of about COUNT triangles; several for a curve")
       ->type_name("COUNT,...")
       ->delimiter(',')
-      ->check(CLI::Range(std::int64_t(4), std::int64_t(1'000'000'000)));
-  command
-      ->add_option("--refine", inputs->refine,
-                   "Divide each triangle into four, up to TIMES over, and measure each time")
-      ->type_name("TIMES")
-      ->check(CLI::Range(0, 8));
-  command
-      ->add_option("--repeats", inputs->repeats,
-                   "Runs of each call, after one to warm up; 0: times that one, for scenes that take long")
-      ->type_name("COUNT")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str();
+      ->check(whole_numbers(4, 1'000'000'000));
+  add_whole(*command, "--refine", inputs->refine, "TIMES",
+            "Divide each triangle into four, up to TIMES over, and measure each time", 0, 8);
+  add_whole(*command, "--repeats", inputs->repeats, "COUNT",
+            "Runs of each call, after one to warm up; 0: times that one, for scenes that take long [5]", 0,
+            1000);
   add_weld(*command, inputs->weld);
   add_common_options(*command, *inputs, "one row a scene, its size and the cost of the active set");
   command->callback([&run, inputs] { run = [inputs] { run_bench(*inputs); }; });

@@ -17,6 +17,9 @@ struct Arguments {
 // Adds them to `command`; `arguments` must outlive the parse. `csv_columns` goes into the help.
 void add_common_options(CLI::App& command, Arguments& arguments, const std::string& csv_columns);
 
+// --json alone.
+void add_json(CLI::App& command, Arguments& arguments);
+
 // --window, of active sets.
 void add_window(CLI::App& command, Arguments& arguments);
 

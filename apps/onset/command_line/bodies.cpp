@@ -1,6 +1,9 @@
 #include "onset/command_line/bodies.hpp"
 
+#include <cstdint>
+
 #include "files/error.hpp"
+#include "onset/command_line/values.hpp"
 
 namespace app {
 namespace {
@@ -32,10 +35,12 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
   command
       .add_option("--static-body", a.fixed,
                   "Body I stays where it is and never meets what is static (repeat)")
+      ->check(whole_numbers(0, INT32_MAX))
       ->type_name("I")
       ->expected(1)
       ->take_all();
   command.add_option("--rigid-body", a.rigid, "Body I never meets itself (repeat)")
+      ->check(whole_numbers(0, INT32_MAX))
       ->type_name("I")
       ->expected(1)
       ->take_all();

@@ -4,6 +4,7 @@
 #include "files/scene/places.hpp"
 #include "onset/command_line/bodies.hpp"
 #include "onset/command_line/commands.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/commands/scene_command.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/results/report.hpp"
@@ -55,14 +56,16 @@ void add_check(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand(
       "check",
       "Whether a step can start at FILE: intersections, touching pairs, copied vertices and more, exactly");
-  command->add_option("FILE", inputs->a, kMeshHelp)->required();
-  command->add_option("END", inputs->b, "The end of a step: tells which copied vertices stay together");
+  command->add_option("FILE", inputs->a, kMeshHelp)->required()->check(path_fault);
+  command->add_option("END", inputs->b, "The end of a step: tells which copied vertices stay together")
+      ->check(path_fault);
   add_common_options(*command, *inputs, kStartColumns);
   add_body_options(*command, *inputs);
   command
       ->add_option(
           "--export", inputs->geometry,
           "Write PLY of what meets: edges that intersect faces red, the faces yellow, what only touches blue")
+      ->check(path_fault)
       ->type_name("FILE");
   command->footer(
       "Exit status: 0 nothing found; 3 something was, or a budget ended the search; 1 bad input; 2 wrong "

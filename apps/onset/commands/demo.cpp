@@ -7,6 +7,7 @@
 #include "files/ply_output.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/commands/demo_scene.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/results/report.hpp"
@@ -93,6 +94,7 @@ void add_demo(CLI::App& app, Run& run) {
   CLI::App* command =
       app.add_subcommand("demo", "A folded cloth drops on a sphere: no files needed, writes demo.ply");
   command->add_option("--output", inputs->output, "Where the coloured mesh goes")
+      ->check(path_fault)
       ->type_name("FILE")
       ->capture_default_str();
   add_common_options(*command, *inputs, "the contacts of the whole step, as active-set writes them");

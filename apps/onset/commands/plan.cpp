@@ -6,6 +6,7 @@
 #include "files/scene/scene.hpp"
 #include "onset/command_line/bodies.hpp"
 #include "onset/command_line/commands.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/commands/scene_command.hpp"
 #include "onset/results/report.hpp"
 
@@ -77,11 +78,11 @@ void add_plan(CLI::App& app, Run& run) {
   CLI::App* command =
       app.add_subcommand("filters", "Which pairs a scene can have at all, and why it has no others")
           ->alias("plan");
-  command->add_option("A", inputs->a, "Mesh: .ply, .obj, .off or .stl")->required();
-  command->add_option("B", inputs->b, "The same mesh later: tells which bodies are at rest");
+  command->add_option("A", inputs->a, "Mesh: .ply, .obj, .off or .stl")->required()->check(path_fault);
+  command->add_option("B", inputs->b, "The same mesh later: tells which bodies are at rest")
+      ->check(path_fault);
   add_body_options(*command, *inputs);
-  command->add_option("--json", inputs->json, "Write the result as JSON to FILE, or to stdout for -")
-      ->type_name("FILE");
+  add_json(*command, *inputs);
   command->callback([&run, inputs] {
     run = [inputs] {
       Scene scene = read_scene(inputs->a, inputs->b.empty() ? inputs->a : inputs->b);

@@ -9,6 +9,7 @@
 #include "measure/timing.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/exports/query_dump.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/results/report.hpp"
@@ -150,7 +151,9 @@ void add_queries(CLI::App& app, Run& run) {
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command =
       app.add_subcommand("queries", "Answer queries with known truth, and count and time the answers");
-  command->add_option("FILE", inputs->files, "CSV, eight rows a query: xn,xd,yn,yd,zn,zd,truth")->required();
+  command->add_option("FILE", inputs->files, "CSV, eight rows a query: xn,xd,yn,yd,zn,zd,truth")
+      ->required()
+      ->check(path_fault);
   add_kind(*command, inputs->kind, ": vertex-face, vf or edge-edge, ee");
   add_common_options(*command, *inputs, "file,index,kind,outcome,toi");
   command->footer(

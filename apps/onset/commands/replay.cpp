@@ -7,6 +7,7 @@
 #include "files/queries/query_kind.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/exports/query_dump.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/results/report.hpp"
@@ -113,8 +114,8 @@ void add_replay(CLI::App& app, Run& run) {
       app.add_subcommand("replay", "Ask the queries of a dump again, and compare with its answers");
   command
       ->add_option("FILE", inputs->files, "NAME-vf.csv or NAME-ee.csv, from step or active-set --dump NAME")
-      ->required();
-
+      ->required()
+      ->check(path_fault);
   add_kind(*command, inputs->kind, ": vf or ee");
   add_common_options(*command, *inputs, "index,kind,outcome,toi,checks,verdict");
   command->footer(

@@ -6,6 +6,7 @@
 #include "files/scene/places.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/bodies.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/results/report.hpp"
 
 namespace app {
@@ -18,8 +19,8 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
   };
   const auto inputs = std::make_shared<Inputs>();
   CLI::App* command = app.add_subcommand(name, help);
-  command->add_option("A", inputs->a, kMeshHelp)->required();
-  command->add_option("B", inputs->b, kEndHelp)->required();
+  command->add_option("A", inputs->a, kMeshHelp)->required()->check(path_fault);
+  command->add_option("B", inputs->b, kEndHelp)->required()->check(path_fault);
   add_common_options(*command, *inputs, csv_columns);
   add_body_options(*command, *inputs);
   command->callback([&run, inputs, work = std::move(work)] {
@@ -50,7 +51,7 @@ static std::string seam_hint(const Scene& scene) {
 }
 
 void note_start(const Scene& scene, const onset::Options& options, bool in_contact, Outputs& outputs) {
-  onset::Options all;  // of the budgets the time alone, beyond which "there may be" is the answer
+  onset::Options all;  // without budgets, beyond which "there may be" is the answer
   all.threads = options.threads, all.broad_phase = options.broad_phase,
   all.instruction_set = options.instruction_set;
   const bool meets = onset::has_intersections(scene.mesh, scene.x_t0, all);

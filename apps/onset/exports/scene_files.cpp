@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "files/error.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/exports/geometry_files.hpp"
 #include "onset/exports/query_dump.hpp"
 
@@ -24,12 +25,14 @@ void add_scene_files(CLI::App& command, SceneFiles& files) {
                   "Write the queries that matter, the limiting or earliest and the worst, to NAME-vf.csv and "
                   "NAME-ee.csv "
                   "(exact rationals) with their answers in .json beside them, for onset replay")
+      ->check(path_fault)
       ->type_name("NAME");
   command
       .add_option(
           "--export", files.geometry,
           "Write NAME-contacts.ply, NAME-candidates.ply and NAME-swept.ply, coloured by time of impact: red "
           "first, blue last, grey never (for step: the earliest contacts)")
+      ->check(path_fault)
       ->type_name("NAME");
 }
 

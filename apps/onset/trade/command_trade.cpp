@@ -6,6 +6,7 @@
 #include "files/queries/truth_file.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/commands.hpp"
+#include "onset/command_line/values.hpp"
 #include "onset/results/progress.hpp"
 #include "onset/trade/subject.hpp"
 #include "onset/trade/trade_report.hpp"
@@ -57,19 +58,21 @@ void run_trade(const Inputs& inputs) {
 }
 
 void add_inputs(CLI::App& command, Inputs& inputs) {
-  command.add_option("A", inputs.a, kMeshHelp);
-  command.add_option("B", inputs.b, kEndHelp);
+  command.add_option("A", inputs.a, kMeshHelp)->check(path_fault);
+  command.add_option("B", inputs.b, kEndHelp)->check(path_fault);
   command
       .add_option(
           "--queries", inputs.queries,
           "Instead of A and B, queries with truth: CSV, eight rows a query; exact times from a toi.csv "
           "beside the file, if there is one: a row lo,hi a query")
+      ->check(path_fault)
       ->type_name("FILE ...");
   add_kind(command, inputs.kind);
   command
       .add_option("--truth", inputs.truth,
                   "Which pairs of A and B collide: PAIRS.json,COLLIDES.json, or a CSV with "
                   "kind,a,b,toi_lo,toi_hi; may be given several times")
+      ->check(path_fault)
       ->type_name("FILE ...");
 }
 
@@ -78,28 +81,25 @@ void add_plan(CLI::App& command, Inputs& inputs) {
       ->check(CLI::IsMember(axis_names()))
       ->type_name("NAME,...")
       ->delimiter(',');
-  command.add_option("--repeats", inputs.plan.repeats, "Measurements of each setting, after one to warm up")
-      ->type_name("COUNT")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command
-      .add_option("--seconds", inputs.plan.seconds, "Measure a setting again while it has not taken as long")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  add_whole(command, "--repeats", inputs.plan.repeats, "COUNT",
+            "Measurements of each setting, after one to warm up [9]", 1, 1000);
+  add_real(command, "--seconds", inputs.plan.seconds, "SECONDS",
+           "Measure a setting again while it has not taken as long [5]", Zero::allowed);
 }
 
 void add_target(CLI::App& command, Target& target) {
   const std::string group = "Targets: recommend a setting of the Pareto front";
-  const auto add = [&](const char* name, auto& value, const char* type, const char* help) {
-    command.add_option(name, value, help)->type_name(type)->check(CLI::NonNegativeNumber)->group(group);
+  const auto real = [&](const char* name, auto& value, const char* type, const char* help) {
+    add_real(command, name, value, type, help, Zero::allowed)->group(group);
   };
-  add("--target-time-us", target.time_us, "US", "The most accurate that takes no longer; else the fastest");
-  add("--target-false-positives", target.false_positives, "COUNT",
-      "No more false positives (needs the truth)");
-  add("--target-positives", target.positives, "COUNT", "No more positives");
-  add("--target-earliness", target.earliness, "TIME", "Times of impact no earlier on average, step = 1");
-  add("--target-budget", target.budget, "COUNT", "No more pairs that spend max_checks");
+  const auto count = [&](const char* name, auto& value, const char* help) {
+    add_whole(command, name, value, "COUNT", help, 0, INT64_MAX)->group(group);
+  };
+  real("--target-time-us", target.time_us, "US", "The most accurate that takes no longer; else the fastest");
+  count("--target-false-positives", target.false_positives, "No more false positives (needs the truth)");
+  count("--target-positives", target.positives, "No more positives");
+  real("--target-earliness", target.earliness, "TIME", "Times of impact no earlier on average, step = 1");
+  count("--target-budget", target.budget, "No more pairs that spend max_checks");
 }
 
 }  // namespace
