@@ -129,6 +129,12 @@ class Options(AppTest):
         a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
         self.must_fail(BAD, ["min_separation"], "step", a, b, "--min-separation", "1e308")
 
+    def test_the_time_limit_is_one_of_the_look_at_the_start_too(self):
+        crossing = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, -1), (1, 1, 1), (1, 2, 1)]
+        a = self.write("a.obj", obj(crossing, FACES))
+        self.assertIn("intersects or touches itself", self.json("step", a, a, "--time-limit", "100")["notes"][0])
+        self.assertIn("not found out within the time limit", self.json("step", a, a, "--time-limit", "0")["notes"][0])
+
     def test_that_do_not_go_together(self):
         a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
         self.must_fail(USAGE, ["--tolerance", "--relative-tolerance"], "step", a, b, "--tolerance", "1",

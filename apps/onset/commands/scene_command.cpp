@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "files/scene/places.hpp"
+#include "measure/timing.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/bodies.hpp"
 #include "onset/command_line/values.hpp"
@@ -51,10 +52,15 @@ static std::string seam_hint(const Scene& scene) {
 }
 
 void note_start(const Scene& scene, const onset::Options& options, bool in_contact, Outputs& outputs) {
-  onset::Options all;  // without budgets, beyond which "there may be" is the answer
+  onset::Options all;  // of the budgets the time alone, beyond which "there may be" is the answer
   all.threads = options.threads, all.broad_phase = options.broad_phase,
-  all.instruction_set = options.instruction_set;
-  const bool meets = onset::has_intersections(scene.mesh, scene.x_t0, all);
+  all.instruction_set = options.instruction_set, all.time_limit = options.time_limit;
+  const Stopwatch watch;
+  const bool may_meet = onset::has_intersections(scene.mesh, scene.x_t0, all);
+  const bool out_of_time = watch.elapsed().wall >= options.time_limit;
+  if (may_meet && out_of_time)
+    outputs.note("whether the start intersects itself was not found out within the time limit");
+  const bool meets = may_meet && !out_of_time;
   if (!meets && !in_contact) return;
   const bool apart = !meets && options.min_separation > 0;
   outputs.note(std::string("the start ") + (meets ? "intersects or touches itself" : "touches itself") +
