@@ -101,20 +101,31 @@ int sign_changes(const Coefficients& b) {
   return changes;
 }
 
-// Finds the roots in the open interval. It ends for square-free p: short pieces have at most one sign change.
-void isolate(const IntegerPolynomial& p, const Coefficients& b, const Integer& k, unsigned depth,
-             std::vector<IsolatedRoot>& roots) {
-  const int changes = sign_changes(b);
-  if (changes == 0) return;
-  if (changes == 1 && !b.front().is_zero() && !b.back().is_zero()) {
-    roots.push_back({p, k, depth, false});
-    return;
+// Finds the roots in the open interval (0, 1), from left to right. It ends for square-free p: short pieces
+// have at most one sign change. Roots may be as close as 2^-10000, so that a recursion could be as deep.
+void isolate(const IntegerPolynomial& p, const Coefficients& b, std::vector<IsolatedRoot>& roots) {
+  struct Piece {
+    Coefficients b;
+    Integer k;
+    unsigned depth;
+  };
+  std::vector<Piece> open{{b, 0, 0}};
+  while (!open.empty()) {
+    const Piece piece = std::move(open.back());
+    open.pop_back();
+    // A right half begins with its middle, which no other piece has looked at.
+    if (bit_test(piece.k, 0) && piece.b.front().is_zero()) roots.push_back({p, piece.k, piece.depth, true});
+    const int changes = sign_changes(piece.b);
+    if (changes == 0) continue;
+    if (changes == 1 && !piece.b.front().is_zero() && !piece.b.back().is_zero()) {
+      roots.push_back({p, piece.k, piece.depth, false});
+      continue;
+    }
+    Piece left{{}, 2 * piece.k, piece.depth + 1}, right{{}, left.k + 1, left.depth};
+    halve(piece.b, left.b, right.b);
+    open.push_back(std::move(right));
+    open.push_back(std::move(left));
   }
-  Coefficients left, right;
-  halve(b, left, right);
-  isolate(p, left, 2 * k, depth + 1, roots);
-  if (right.front().is_zero()) roots.push_back({p, 2 * k + 1, depth + 1, true});
-  isolate(p, right, 2 * k + 1, depth + 1, roots);
 }
 
 }  // namespace
@@ -164,7 +175,7 @@ std::vector<IsolatedRoot> isolated_roots(const IntegerPolynomial& f) {
   if (p.degree() < 1) return roots;
   const Coefficients b = bernstein(p, 0, 0);
   if (b.front().is_zero()) roots.push_back({p, 0, 0, true});
-  isolate(p, b, 0, 0, roots);
+  isolate(p, b, roots);
   if (b.back().is_zero()) roots.push_back({p, 1, 0, true});
   return roots;
 }

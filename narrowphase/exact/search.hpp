@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 
 #include "narrowphase/exact/bracket.hpp"
 #include "narrowphase/exact/common_root.hpp"
@@ -43,8 +45,7 @@ class ExactSearch {
       return {Answer::unknown, 0, 0, false, false, true};
     if (has_no_root(f_)) return at_end();
     set_slot(n, whole_);
-    Slot slot = whole_;
-    const Answer inside = visit(slot, 0, 0);
+    const Answer inside = visit_all();
     if (inside == Answer::no) return at_end();
     found_.answer = inside;
     return found_;
@@ -57,7 +58,7 @@ class ExactSearch {
   struct Slot {
     T f[4];
     T g[kQuadratics][3];
-    int sign = 0;  // N's in the open interval, where it has one
+    int sign;  // N's in the open interval, where it has one, or 0
     bool open[kQuadratics];
   };
   struct Normal {
@@ -119,6 +120,7 @@ class ExactSearch {
       s.g[3][i] = kind_ == PairKind::vertex_face ? over - s.g[2][i] : over;
       s.g[4][i] = s.g[0][i] - s.g[2][i];
     }
+    s.sign = 0;
     for (bool& x : s.open) x = true;
     if (kind_ == PairKind::vertex_face) s.open[4] = false;
   }
@@ -202,8 +204,37 @@ class ExactSearch {
     }
   }
 
-  // Decides the first time and the open interval of [k, k + 1] / 2^depth.
-  Answer visit(Slot& s, std::uint64_t k, int depth) {
+  // The halves of an interval.
+  struct Halves {
+    Slot left, right;
+  };
+
+  // Decides intervals from left to right, and halves those that cannot be. No recursion: slots are large, and
+  // a thread's stack may not be.
+  Answer visit_all() {
+    Slot whole = whole_, *s = &whole;
+    std::unique_ptr<Halves[]> halves;  // of the interval at each depth, on the way to this one
+    std::uint64_t k = 0;
+    for (int depth = 0;;) {
+      const std::optional<Answer> answer = decide(*s, k, depth);
+      if (!answer) {
+        if (!halves) halves.reset(new Halves[std::size_t(max_depth_)]);
+        Halves& h = halves[std::size_t(depth)];
+        halve(*s, h.left, h.right);
+        s = &h.left;
+        k = 2 * k, ++depth;
+        continue;
+      }
+      if (*answer != Answer::no) return *answer;
+      while (k % 2 == 1) k /= 2, --depth;
+      if (depth == 0) return Answer::no;
+      s = &halves[std::size_t(depth) - 1].right;
+      ++k;
+    }
+  }
+
+  // Decides the first time and the open interval of [k, k + 1] / 2^depth; none: its halves have to be.
+  std::optional<Answer> decide(Slot& s, std::uint64_t k, int depth) {
     if (depth > 0 && sign_of(s.f[0]) == 0) {
       const Answer start = touches_at_start(s);
       if (start != Answer::no) {
@@ -221,10 +252,7 @@ class ExactSearch {
       return zoom(s, k, depth);
     }
     if (depth == max_depth_) return Answer::unknown;
-    Slot l, r;
-    halve(s, l, r);
-    const Answer left = visit(l, 2 * k, depth + 1);
-    return left != Answer::no ? left : visit(r, 2 * k + 1, depth + 1);
+    return std::nullopt;
   }
 
   // Closes what is zero at f's one root, which counts as inside.
