@@ -15,7 +15,9 @@ using Edge = std::array<int, 2>;
 
 // The order of igl::edges, which walks the upper triangle of the adjacency matrix column by column. Rows are
 // (smaller, larger).
-bool in_order(const Edge& e, const Edge& f) { return e[1] != f[1] ? e[1] < f[1] : e[0] < f[0]; }
+constexpr auto in_order = [](const Edge& e, const Edge& f) {
+  return e[1] != f[1] ? e[1] < f[1] : e[0] < f[0];
+};
 
 int id_in(const char* what, const Indices& ids, std::ptrdiff_t row, std::ptrdiff_t column) {
   const long long v = ids(row, column);
