@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/free_list.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "broadphase/bvh/box_tree.hpp"
@@ -63,10 +64,11 @@ class Bvh final : public BroadPhase {
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
+    const FreeList<TraversalMemory>::Loan memory(memory_);
     std::size_t begin = 0;
     for (const Couple& couple : couples_[std::size_t(kind)]) {
       const std::size_t from = std::max(first, begin), to = std::min(last, couple.end);
-      if (from < to) traverse(kind, couple, from - begin, to - begin, sink);
+      if (from < to) traverse(kind, couple, from - begin, to - begin, sink, *memory);
       begin = couple.end;
     }
   }
@@ -92,7 +94,7 @@ class Bvh final : public BroadPhase {
   };
 
   void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
-                const PairSink& sink) const {
+                const PairSink& sink, TraversalMemory& memory) const {
     const Decide decide{*input_, kind};
     TraverseArguments arguments{};
     arguments.query = couple.query->view(), arguments.tree = couple.other->view();
@@ -107,6 +109,7 @@ class Bvh final : public BroadPhase {
     arguments.meets = Decide::meet, arguments.excluded = Decide::excluded, arguments.context = &decide;
     arguments.consume = sink.consume, arguments.consume_context = sink.context;
     arguments.stop = sink.stop.asked, arguments.stop_context = sink.stop.context;
+    arguments.memory = &memory;
     bvh_kernel(input_->instruction_set).traverse(arguments);
   }
 
@@ -152,6 +155,7 @@ class Bvh final : public BroadPhase {
   std::array<std::optional<BoxTree>, 3> trees_;
   std::shared_ptr<const StaticTrees> static_;
   std::array<std::vector<Couple>, 3> couples_;
+  mutable FreeList<TraversalMemory> memory_;
 };
 
 }  // namespace

@@ -53,6 +53,11 @@ struct FitArguments {
 // only.
 enum class Sides { vertices_faces, edges_edges, edges_faces };
 
+// What a traversal keeps its lists in: more than a thread's stack may have to spare.
+struct TraversalMemory {
+  alignas(32) unsigned char bytes[40 << 10];
+};
+
 struct TraverseArguments {
   TreeView query, tree;
   BoxTest test;
@@ -77,6 +82,7 @@ struct TraverseArguments {
   // As Stop::asked: null, or says whether the rest need not be traversed.
   bool (*stop)(void* context);
   void* stop_context;
+  TraversalMemory* memory;
 };
 
 #define ONSET_DECLARE_BVH_KERNEL(isa)                                                                \

@@ -28,7 +28,14 @@ struct Pairs {
 template <BoxTest kTest, Sides kSides, bool kSelf, bool kKeyed>
 class Traversal {
  public:
+  static void run(const TraverseArguments& arguments) {
+    static_assert(sizeof(Traversal) <= sizeof(TraversalMemory), "");
+    (new (arguments.memory) Traversal(arguments))->run();
+  }
+
+ private:
   explicit Traversal(const TraverseArguments& arguments) : t_(arguments) {}
+  static void* operator new(std::size_t, TraversalMemory* memory) { return memory; }
 
   void run() {
     const int top = t_.tree.levels - 1;
@@ -43,7 +50,6 @@ class Traversal {
     flush();
   }
 
- private:
   static constexpr bool kBothEnds = kTest != BoxTest::swept, kMoving = kTest == BoxTest::moving;
   static constexpr int kRows = kRowsOf[kBothEnds];
   static constexpr int kBoxStride = kBoxStrideOf[kBothEnds];
@@ -286,7 +292,7 @@ class Traversal {
 
 template <BoxTest kTest, Sides kSides, bool kSelf = false>
 void traverse_sides(const TraverseArguments& a) {
-  a.keyed ? Traversal<kTest, kSides, kSelf, true>(a).run() : Traversal<kTest, kSides, kSelf, false>(a).run();
+  a.keyed ? Traversal<kTest, kSides, kSelf, true>::run(a) : Traversal<kTest, kSides, kSelf, false>::run(a);
 }
 
 template <BoxTest kTest>
