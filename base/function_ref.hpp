@@ -11,7 +11,8 @@ class FunctionRef {
   // f must live as long as this is called.
   template <class F>
   explicit FunctionRef(const F& f)
-      : context_(&f), call_([](const void* context, Arguments... a) { (*static_cast<const F*>(context))(a...); }) {}
+      : context_(&f),
+        call_([](const void* context, Arguments... a) { (*static_cast<const F*>(context))(a...); }) {}
   void operator()(Arguments... a) const { call_(context_, a...); }
 
  private:

@@ -14,6 +14,7 @@ namespace onset {
 namespace backend {
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> f);
 void run_in_arena(int threads, FunctionRef<> f);
+void run_isolated(FunctionRef<> f);
 }  // namespace backend
 
 // f(first, last) over [0, count) in chunks of about `grain`, in the current arena. An exception of f leaves
@@ -38,6 +39,13 @@ void in_arena(int threads, F&& f) {
     const auto alone = [&] { in_float_environment(f); };
     backend::run_in_arena(threads, FunctionRef<>(alone));
   });
+}
+
+// f(), which may run parallel work of the host's: a thread that waits for it takes on no other work of this
+// call, whose tasks would else pile up on its stack.
+template <class F>
+void isolated(F&& f) {
+  backend::run_isolated(FunctionRef<>(f));
 }
 
 // Returns how many threads the current arena may use.

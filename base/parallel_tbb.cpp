@@ -59,14 +59,14 @@ void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, s
                     [=](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
 }
 
+void run_isolated(FunctionRef<> f) {
+  tbb::this_task_arena::isolate([=] { f(); });
+}
+
 void run_in_arena(int threads, FunctionRef<> f) {
-  const auto alone = [=] { tbb::this_task_arena::isolate([=] { f(); }); };
-  if (threads == 0) {
-    alone();
-  } else {
-    LentArena arena(threads);
-    arena->execute(alone);
-  }
+  if (threads == 0) return run_isolated(f);
+  LentArena arena(threads);
+  arena->execute([=] { run_isolated(f); });
 }
 
 }  // namespace backend

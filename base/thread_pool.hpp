@@ -1,7 +1,7 @@
 // Threads of the library's own, for builds without TBB: they sleep until a loop wants help.
 //
-// A thread that waits for a loop takes on no other work, and every loop ends without help, so that loops may be
-// nested, and made from several threads at once.
+// A thread that waits for a loop takes on no other work, and every loop ends without help, so that loops may
+// be nested, and made from several threads at once.
 #pragma once
 
 #include <atomic>

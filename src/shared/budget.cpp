@@ -66,8 +66,7 @@ void Budget::advance(std::size_t blocks) {
 
 double Budget::done() const { return blocks_ > 0 ? double(blocks_done_) / double(blocks_) : 0; }
 
-// This is not a mutex: a thread that comes while another reports goes on working. The arena keeps tasks of
-// this call from a thread that waits for parallel work of the callback's own.
+// This is not a mutex: a thread that comes while another reports goes on working.
 void Budget::report() {
   if (!options_.progress || interrupted_.load(std::memory_order_relaxed) || reporting_.test_and_set()) return;
   struct Release {
@@ -75,7 +74,7 @@ void Budget::report() {
     ~Release() { flag.clear(); }
   } release{reporting_};
   bool goes_on = true;
-  in_arena(0, [&] { goes_on = options_.progress(done()); });
+  isolated([&] { goes_on = options_.progress(done()); });
   if (!goes_on) interrupt(Outcome::cancelled);
   reported_at_.store(clock_.seconds(), std::memory_order_relaxed);
 }

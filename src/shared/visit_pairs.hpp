@@ -16,7 +16,8 @@ namespace onset {
 
 // Calls visit(state, pairs, count) for each batch of a task's blocks, from any thread, where `state` is the
 // task's copy of `initial`, and then merge(state), for one task at a time. Once ended() is true, or the
-// budget is spent, batches and tasks that have not begun are left out, and so is the rest of a block.
+// budget is spent, batches and tasks that have not begun are left out, and so is the rest of a block. The
+// caller's progress is called outside of merge.
 template <class State, class Visit, class Merge, class Ended>
 void visit_pairs(const PairSource& source, PairKind kind, std::size_t blocks_a_task, const State& initial,
                  Budget& budget, const Visit& visit, const Merge& merge, const Ended& ended) {

@@ -1,8 +1,7 @@
 // What both back ends of base/parallel.hpp promise; the build makes a program for each.
-#include "base/parallel.hpp"
-
 #include <sys/wait.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "tests/catch.hpp"
 
 #if defined(__SSE2__)
@@ -184,8 +184,7 @@ TEST_CASE("several threads may call at once", "[unit][parallel]") {
   std::vector<std::thread> hosts;
   for (int i = 0; i < 8; ++i)
     hosts.emplace_back([&, i] {
-      for (int round = 0; round < 100; ++round)
-        in_arena(i % 5, [&] { wrong += sum_up_to(100) != 5050; });
+      for (int round = 0; round < 100; ++round) in_arena(i % 5, [&] { wrong += sum_up_to(100) != 5050; });
     });
   for (std::thread& host : hosts) host.join();
   CHECK(wrong == 0);
@@ -214,6 +213,23 @@ TEST_CASE("every chunk has the floating-point environment of the library", "[uni
   CHECK(_mm_getcsr() == host);
 }
 #endif
+
+TEST_CASE("a thread that waits for a host's parallel work takes on no chunk of the loop",
+          "[unit][parallel]") {
+  thread_local bool inside = false;
+  std::atomic<int> intruders{0};
+  in_arena(4, [&] {
+    parallel_ranges(2000, 1, [&](std::size_t, std::size_t) {
+      if (inside) ++intruders;
+      isolated([&] {
+        inside = true;
+        tbb::parallel_for(0, 16, [](int) { std::this_thread::sleep_for(std::chrono::microseconds(5)); });
+        inside = false;
+      });
+    });
+  });
+  CHECK(intruders == 0);
+}
 
 TEST_CASE("sorting in parallel is sorting", "[unit][parallel]") {
   std::mt19937 random(5);
