@@ -51,7 +51,8 @@ void isolated(F&& f) {
 // Returns how many threads the current arena may use.
 int current_threads();
 
-// A total order is required of `less`: the result is then independent of the number of threads.
+// A total order is required of `less`: the result is then independent of the number of threads. Calls without
+// options sort in the caller's arena: they too take on no other work of it.
 template <class It, class Less>
 void parallel_sort(It first, It last, Less less) {
   constexpr std::size_t kFew = 2000, kMostPieces = 64;
@@ -64,15 +65,17 @@ void parallel_sort(It first, It last, Less less) {
     return first + typename std::iterator_traits<It>::difference_type(count / pieces * piece +
                                                                       count % pieces * piece / pieces);
   };
-  parallel_ranges(pieces, 1, [&](std::size_t piece, std::size_t end) {
-    for (; piece < end; ++piece) std::sort(at(piece), at(piece + 1), less);
-  });
-  for (std::size_t width = 1; width < pieces; width *= 2)
-    parallel_ranges(pieces / (2 * width), 1, [&](std::size_t merge, std::size_t end) {
-      for (; merge < end; ++merge)
-        std::inplace_merge(at(2 * merge * width), at((2 * merge + 1) * width), at((2 * merge + 2) * width),
-                           less);
+  isolated([&] {
+    parallel_ranges(pieces, 1, [&](std::size_t piece, std::size_t end) {
+      for (; piece < end; ++piece) std::sort(at(piece), at(piece + 1), less);
     });
+    for (std::size_t width = 1; width < pieces; width *= 2)
+      parallel_ranges(pieces / (2 * width), 1, [&](std::size_t merge, std::size_t end) {
+        for (; merge < end; ++merge)
+          std::inplace_merge(at(2 * merge * width), at((2 * merge + 1) * width), at((2 * merge + 2) * width),
+                             less);
+      });
+  });
 }
 
 }  // namespace onset
