@@ -146,7 +146,7 @@ PairResult PairDecision::contact_at_start(const Bounds& start, const KernelResul
     r.certainty = Certainty::touching_at_start;
   else if (exact.answer == Answer::yes)
     r.certainty = Certainty::certain;
-  if (touching) r.toi_hi = 0;
+  if (r.certainty == Certainty::touching_at_start) r.toi_hi = 0;
   if (exact.answer == Answer::yes) r.toi_hi = exact.time.hi;
   Parting parting;
   if (!touching || in_.options.touching_may_pass_through) parting = find_parting_of(start, d, touching);

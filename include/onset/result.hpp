@@ -93,8 +93,9 @@ ONSET_API const char* to_string(Certainty certainty);
 struct Contact : Pair {
   // Certified: the pair is apart on [0, toi). Never later than the exact time. Infinite where it is free.
   double toi = INFINITY;
-  // By then the pair has touched: finite only where that is certain. With a separation it is infinite unless
-  // the pair touches at the start: that it comes as close is certain, by when is not told. Exactness::exact,
+  // By then the pair has touched (come as close as the separation): finite only where that is certain. 0
+  // where it has at the start (touching_at_start), also where the motion parts it. With a separation it is
+  // otherwise infinite: that the pair comes as close may be certain, by when is not told. Exactness::exact,
   // separation 0: toi and toi_hi of the earliest contact are adjacent doubles or one double; which others are
   // depends on the window and the budgets.
   double toi_hi = INFINITY;
@@ -162,8 +163,8 @@ struct Stats {
   std::array<std::int64_t, 16> checks_histogram{};
   // The first of the pairs with the most checks.
   std::optional<Pair> worst;
-  // Share of the pairs looked at, in [0, 1]: 1 unless a budget was spent, and even then where the last report
-  // of progress cancelled the call.
+  // Share of the pairs looked at, in [0, 1]: 1 unless a budget was spent, and even then where the call ended
+  // after the last pair.
   double looked_at = 1;
   // Motion, boxes and tree; traversal and certificates, which are fused; order, contact points and normals of
   // an active set; all.

@@ -64,12 +64,15 @@ ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Pos
 // touch, as compute_candidates gives for this motion, or for one that contains it, and the same
 // min_separation or more. A pair that comes within the tolerance and never touches may limit this step and
 // not that of the call without a list, which does not look at pairs whose boxes are never at one place at one
-// time.
+// time. With a separation it is also the other way round: that call looks as far as separation + tolerance,
+// compute_candidates only as far as the separation, so that a pair which stays beyond its separation and
+// comes within the tolerance may limit that step and not this one. Both steps are free of contact.
 //
 // candidates: pairs by id, in any order, those that the rules of the mesh leave out limiting nothing; counts
 // and statistics are not used. gap_share: in [0, 1). Every pair keeps this share of its gap at x_t0, as in
 // LineSearch. Throws as above, and std::invalid_argument for gap_share out of range, candidates with an
-// outcome (they are not complete), or naming the row for an id out of range or a pair that shares a vertex.
+// outcome (they are not complete), or naming the row for an id out of range or a pair that shares a vertex;
+// rows that are left when time or the caller ends the call are not checked.
 // Safe to call concurrently on one Mesh.
 ONSET_API StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& candidates,
                                                      const Positions& x_t0, const Positions& x_t1,

@@ -238,3 +238,34 @@ TEST_CASE("close pairs and the making of a line search can be cancelled, and obe
   const LineSearch search(mesh, named.scene.x_t0, named.scene.x_t1 - named.scene.x_t0, options);
   CHECK(search.largest_step().outcome == Outcome::cancelled);
 }
+
+// A vertex flies over a face, beyond the separation by less than the tolerance.
+TEST_CASE(
+    "with a separation the step of listed candidates may be later than that of the call, for a near miss",
+    "[unit]") {
+  const double d = 0.1;
+  Eigen::MatrixXd x0(4, 3), x1;
+  x0 << -1, -1, 0, 1, -1, 0, 0, 1, 0, -3, 0, d;
+  const Mesh mesh(x0, Eigen::RowVector3i(0, 1, 2));
+  Options o;
+  o.min_separation = d;
+  const auto compare = [&](double beyond, bool listed) {
+    CAPTURE(beyond);
+    x0(3, 2) = d + beyond;
+    x1 = x0;
+    x1(3, 0) = 3;
+    const Candidates list = compute_candidates(mesh, x0, x1, o);
+    const StepResult call = compute_collision_free_stepsize(mesh, x0, x1, o),
+                     of_list = compute_collision_free_stepsize(mesh, list, x0, x1, o);
+    REQUIRE(call.stats.tolerance > 1e-6);
+    CHECK(list.vertex_face.size() == (listed ? 1 : 0));
+    CHECK((call.outcome == Outcome::contact && call.step < 0.42));
+    if (listed)
+      CHECK(of_list.step == call.step);
+    else
+      CHECK((of_list.step == 1 && of_list.outcome == Outcome::free));
+  };
+  compare(0x1p-40, false);
+  compare(0, true);
+  compare(-0x1p-40, true);
+}

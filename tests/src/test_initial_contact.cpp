@@ -84,6 +84,40 @@ TEST_CASE("closer than the separation: receding goes free, approaching gives ste
   CHECK(pressing.limiting);
 }
 
+TEST_CASE("what is in contact at the start has touched by then, whether it parts or not", "[unit]") {
+  const auto check = [](double height, double to, double d, bool may_pass_through, PairOutcome expected) {
+    CAPTURE(height, to, d, may_pass_through);
+    Options o;
+    o.min_separation = d;
+    o.touching_may_pass_through = may_pass_through;
+    for (const QueryResult& r : {vertex_face_ccd(moving_vertex({.25, .25, height}, {.25, .25, to}), o),
+                                 edge_edge_ccd(crossing_edges(height, to), o)}) {
+      CHECK(r.outcome == expected);
+      CHECK(r.certainty == Certainty::touching_at_start);
+      CHECK((r.toi == 0 && r.toi_hi == 0));
+    }
+  };
+  for (const bool may : {false, true}) {
+    check(.05, .5, .1, may, PairOutcome::initial_separating);
+    check(.05, -.5, .1, may, PairOutcome::initial_contact);
+  }
+  check(0, .5, 0, false, PairOutcome::initial_contact);
+  check(0, .5, 0, true, PairOutcome::initial_separating);
+  check(0, .5, .1, true, PairOutcome::initial_separating);
+
+  Eigen::MatrixXd x0(4, 3), x1;
+  x0 << 0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, .05;
+  x1 = x0;
+  x1(3, 2) = .5;
+  const Mesh mesh(x0, Eigen::RowVector3i(0, 1, 2));
+  Options o;
+  o.min_separation = .1;
+  const ActiveSet set = construct_active_set(mesh, x0, x1, o);
+  REQUIRE(set.size() == 1);
+  CHECK(set[0].outcome == PairOutcome::initial_separating);
+  CHECK((set[0].certainty == Certainty::touching_at_start && set[0].toi_hi == 0));
+}
+
 TEST_CASE("a pair that parts and is met again later limits the step there", "[unit]") {
   // The vertex leaves the first face, and flies into a second one parallel to it at height 1.
   Eigen::MatrixXd x0(7, 3);

@@ -173,8 +173,8 @@ TEST_CASE("every call tells its progress every few thousand pairs, and no more o
       crowd.mesh.release_memory();
       call.run(crowd, o);
       const std::int64_t all = told;
-      const bool all_pairs = std::string(call.name) != "compute_cfl_stepsize" &&
-                             std::string(call.name) != "intersections";
+      const bool all_pairs =
+          std::string(call.name) != "compute_cfl_stepsize" && std::string(call.name) != "intersections";
       CHECK(all >= (all_pairs ? pairs : std::int64_t(crowd.close.size())) / kPairsALook);
       for (last = 1; last < all; last = 3 * last + 1) {
         CAPTURE(last, all);
@@ -225,9 +225,9 @@ TEST_CASE("what a cancelled search found is not put in order but for some of it"
             return p;
           });
       const std::int64_t size = std::int64_t(gathered.found.size());
-      const bool is_sorted = std::is_sorted(
-          gathered.found.begin(), gathered.found.end(),
-          [](const IdPair& p, const IdPair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+      const bool is_sorted =
+          std::is_sorted(gathered.found.begin(), gathered.found.end(),
+                         [](const IdPair& p, const IdPair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
       CHECK(is_sorted);
       CHECK_FALSE(gathered.too_many);
       CHECK(visited == visited_then);  // nothing after progress returned false
