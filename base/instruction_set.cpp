@@ -8,9 +8,18 @@ namespace onset {
 
 namespace {
 
+// Read once, as a host may change its environment while calls run. Never destroyed: calls may be made until
+// the process ends.
+const std::string& name_in_environment() {
+  static const std::string& name = *[] {
+    const char* value = std::getenv("ONSET_KERNEL");
+    return new std::string(value == nullptr ? "" : value);
+  }();
+  return name;
+}
+
 InstructionSet from_environment() {
-  const char* value = std::getenv("ONSET_KERNEL");
-  const std::string name = value == nullptr ? "" : value;
+  const std::string& name = name_in_environment();
   if (name.empty() || name == "automatic") return InstructionSet::automatic;
   if (name == "scalar") return InstructionSet::scalar;
   if (name == "avx2") return InstructionSet::avx2;

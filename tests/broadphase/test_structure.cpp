@@ -1,9 +1,6 @@
 // Blocks, refits, kernels and threads: none of them changes what is found.
 #include <tbb/task_arena.h>
 
-#include <cstdlib>
-#include <stdexcept>
-
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
@@ -126,25 +123,4 @@ TEST_CASE("the number of threads changes neither blocks nor the order of pairs",
       });
     }
   }
-}
-
-TEST_CASE("a kernel is chosen by request, by environment or by what the machine has", "[unit]") {
-  const char* old = std::getenv("ONSET_KERNEL");
-  const std::string saved = old ? old : "";
-  unsetenv("ONSET_KERNEL");
-  CHECK(resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar);
-  CHECK(resolve_instruction_set(InstructionSet::automatic) ==
-        (has_avx2() ? InstructionSet::avx2 : InstructionSet::scalar));
-  setenv("ONSET_KERNEL", "scalar", 1);
-  CHECK(resolve_instruction_set(InstructionSet::automatic) == InstructionSet::scalar);
-  if (has_avx2()) CHECK(resolve_instruction_set(InstructionSet::avx2) == InstructionSet::avx2);
-  if (!has_avx2()) CHECK_THROWS_AS(resolve_instruction_set(InstructionSet::avx2), std::invalid_argument);
-  setenv("ONSET_KERNEL", "sse9", 1);
-  CHECK_THROWS_WITH(resolve_instruction_set(InstructionSet::automatic), Catch::Contains("sse9"));
-  CHECK(resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar);
-  CHECK(std::string(to_string(InstructionSet::avx2)) == "avx2");
-  if (old)
-    setenv("ONSET_KERNEL", saved.c_str(), 1);
-  else
-    unsetenv("ONSET_KERNEL");
 }
