@@ -18,7 +18,8 @@ struct ActiveSet {
   // The offending vertex of non_finite and out_of_range, else -1.
   int vertex = -1;
   // Every contact with toi < complete_until is in the set. Infinite where all are; earliest + Options::window
-  // with a window; 0 where time or checks ran out or the call was cancelled.
+  // with a window; 0 where time or checks ran out or the call was cancelled. Of what was found until then, a
+  // call that time or the caller ended puts no more in order than a few milliseconds allow.
   double complete_until = 0;
   Stats stats;
 

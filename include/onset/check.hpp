@@ -59,9 +59,9 @@ struct StartReport {
   // One for each list that is not empty, in the order of StartFault.
   std::vector<StartFinding> findings;
 
-  // free: the lists are complete. non_finite, out_of_range: only unused_vertices is. Where a budget was
-  // spent, the three lists of pairs have what was found until then (out_of_memory: nothing); the others are
-  // complete.
+  // free: the lists are complete. non_finite, out_of_range: only unused_vertices is. out_of_time, cancelled:
+  // they have what was found until then, of pairs at most 2^16 of more. out_of_memory: the three lists of
+  // pairs have nothing, the others are complete.
   Outcome outcome = Outcome::free;
   // The offending vertex of non_finite and out_of_range, else -1.
   int vertex = -1;

@@ -18,7 +18,7 @@ struct Intersections {
   // Ordered by (edge, face): the same bytes for any number of threads, instruction set and broad phase.
   std::vector<Intersection> pairs;
   // free: all pairs are listed. non_finite, out_of_range, out_of_memory (more than Options::memory_limit
-  // holds, at 32 bytes each): none is. out_of_time, cancelled: those found until then.
+  // holds, at 32 bytes each): none is. out_of_time, cancelled: those found until then, at most 2^16 of more.
   Outcome outcome = Outcome::free;
   // The offending vertex of non_finite and out_of_range, else -1.
   int vertex = -1;

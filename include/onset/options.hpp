@@ -21,8 +21,9 @@ enum class BroadPhaseMethod { automatic, bvh, hash, brute };
 // finder as the last resort.
 enum class NarrowPhaseMethod { automatic, inclusion };
 // Which copy of the code runs; the answers are the same bytes. automatic: what ONSET_KERNEL in the
-// environment says (scalar, avx2), else the best there is. A call throws std::invalid_argument for one that
-// the processor or the build lacks, and for another word in ONSET_KERNEL.
+// environment says (scalar, avx2), else the best there is. The environment is read once, by the first call
+// with automatic; what is set later changes nothing. A call throws std::invalid_argument for one that the
+// processor or the build lacks, and each call with automatic for another word in ONSET_KERNEL.
 enum class InstructionSet { automatic, scalar, avx2 };
 // How far a call goes to tell a real contact from one that only comes within the tolerance, at separation 0
 // (docs/exactness.md). No level misses a contact.
@@ -77,21 +78,30 @@ struct Options {
   std::int64_t check_limit = std::numeric_limits<std::int64_t>::max();
   // Bytes of what is kept for each pair: 256 a contact of an active set (the earliest ones are kept), 88 a
   // close pair, 8 a candidate that is listed, or held by a LineSearch (which else finds them again at each
-  // step size: the same answers, later). Not in it: positions, boxes and tree (about 400 bytes a vertex, face
-  // and edge) and, for each thread, a batch of pairs. The answer is the same for any number of threads.
+  // step size: the same answers, later). Lists other than active sets take as much again while they are put
+  // in order. Not in it: positions, boxes and tree (about 400 bytes a vertex, face and edge) and, for each
+  // thread, a batch of pairs. The answer is the same for any number of threads.
   std::int64_t memory_limit = std::numeric_limits<std::int64_t>::max();
-  // Seconds since the call began, looked at every few pairs and between the phases. What it cuts off depends
-  // on the machine and on the moment: this alone does not give the same bytes each time. A step cut off is 0,
-  // not a shorter one, since even the shortest of steps takes a look at all pairs of neighbours, most of the
-  // cost of the whole call. compute_cfl_stepsize, which is given their distances, has a bound instead of 0.
+  // Seconds since the call began. What it cuts off depends on the machine and on the moment: this alone does
+  // not give the same bytes each time. A step cut off is 0, not a shorter one, since even the shortest of
+  // steps takes a look at all pairs of neighbours, most of the cost of the whole call. compute_cfl_stepsize,
+  // which is given their distances, has a bound instead of 0.
+  //
+  // Every call that has options looks at the clock in each of its phases: while boxes and trees are made,
+  // every few pairs, also where all of them are in one place, and while what was found is put in order. It
+  // returns after no more than what each thread is at, 16 pairs (none is broken off: tens of microseconds
+  // each, below 10 ms at the default max_checks), or 50 ms more a thread, up to a million triangles. Beyond
+  // that: to give back memory takes 0.1 s a gigabyte, what a mesh keeps of its static parts is made to the
+  // end, once, and compute_cfl_stepsize reads its list to the end, 20 ns a pair. Single queries, which take
+  // one pair, and calls without options do not look.
   double time_limit = std::numeric_limits<double>::infinity();
 
-  // Is called now and then with the share of the pairs looked at so far, in [0, 1], first with 0 before any
-  // work, and cancels the call by returning false (Outcome::cancelled). A call that looks at pairs more than
-  // once begins again with 0. It runs in the floating-point environment of the library, and may run parallel
-  // work of its own. One thread calls at a time, the
-  // caller's or one of its arena's; an exception that it throws leaves the call. It must not call into the
-  // same LineSearch.
+  // Is called with the share of the pairs looked at so far, in [0, 1], first with 0 before any work, then
+  // each time that a task is done or 10 ms are over, as far as a call looks at the clock (above), and cancels
+  // the call by returning false (Outcome::cancelled), as promptly as time_limit. A call that looks at pairs
+  // more than once begins again with 0. It runs in the floating-point environment of the library, and may run
+  // parallel work of its own. One thread calls at a time, the caller's or one of its arena's; an exception
+  // that it throws leaves the call. It must not call into the same LineSearch.
   std::function<bool(double)> progress;
 
   // 0: the call runs in the caller's oneTBB task arena, as it is; where onset is built without TBB, in as

@@ -98,6 +98,7 @@ ONSET_API bool is_step_collision_free(const Mesh& mesh, const Positions& x_t0, c
 // Safe to call concurrently, and from inside `work`.
 //
 // Example:
+//   const double step = onset::compute_collision_free_stepsize(mesh, x_t0, x_t1).step;
 //   onset::in_default_float_environment([&] { x = x_t0 + step * (x_t1 - x_t0); });
 ONSET_API void in_default_float_environment(const std::function<void()>& work);
 
