@@ -1,5 +1,6 @@
 // Parallel loops, arenas and sorts. One of two back ends defines them, as the build says (ONSET_THREADS in
-// docs/building.md): parallel_tbb.cpp, the only file that includes TBB, or parallel_threads.cpp.
+// docs/building.md): threads/parallel_tbb.cpp, the only file that includes TBB, or
+// threads/parallel_threads.cpp.
 #pragma once
 
 #include <algorithm>

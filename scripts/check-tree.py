@@ -21,7 +21,7 @@ LIBRARY = ("include/", "base/", "scene/", "broadphase/", "narrowphase/", "src/")
 MOST_FILES, MOST_LINES = 18, 400
 
 # What only one place of the library may include.
-ONE_PLACE = {r"<tbb/": ("base/parallel_tbb.cpp",), r"<\w*intrin\.h>": ("base/simd/",)}
+ONE_PLACE = {r"<tbb/": ("base/threads/parallel_tbb.cpp",), r"<\w*intrin\.h>": ("base/simd/",)}
 
 # Old words, and what to write. They are patterns of the old use: a step, a pass over something, or to settle may still be said in English.
 WORDS = {

@@ -179,8 +179,7 @@ const std::vector<Call>& calls() {
        }},
       {"step of listed candidates", false, false, true,
        [](const Spot& s, const Given& g, const Options& o, Meter& m) {
-         return outcome(m,
-                        onset::compute_collision_free_stepsize(s.mesh, g.candidates, s.x_t0, s.x_t1, o));
+         return outcome(m, onset::compute_collision_free_stepsize(s.mesh, g.candidates, s.x_t0, s.x_t1, o));
        }},
       {"compute_cfl_stepsize", false, false, true,
        [](const Spot& s, const Given& g, const Options& o, Meter& m) {
@@ -218,8 +217,8 @@ class Bench {
       }
       if (call.keeps_pairs) memory(call);
     }
-    std::printf("%d of %d beyond the promise; the longest: %.1f ms over, %.1f ms of silence\n", beyond_, runs_,
-                1e3 * over_, 1e3 * silence_);
+    std::printf("%d of %d beyond the promise; the longest: %.1f ms over, %.1f ms of silence\n", beyond_,
+                runs_, 1e3 * over_, 1e3 * silence_);
     return beyond_ == 0 ? 0 : 1;
   }
 

@@ -36,7 +36,8 @@ int main(int, char** argv) {
   const std::string word = argv[1];
   if (word == "none") unsetenv("ONSET_KERNEL");
   const bool avx2 = onset::has_avx2();
-  check(onset::resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar, "scalar on request");
+  check(onset::resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar,
+        "scalar on request");
   const std::string first = chosen();
   if (word == "scalar")
     check(first == "scalar", "scalar by the environment");

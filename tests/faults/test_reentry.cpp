@@ -1,5 +1,5 @@
-// A thread that is inside a call takes on no other work of its host's arena: a host that holds a lock around a
-// call, or keeps something of its own for each thread, does not find itself there again.
+// A thread that is inside a call takes on no other work of its host's arena: a host that holds a lock around
+// a call, or keeps something of its own for each thread, does not find itself there again.
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -22,8 +22,8 @@ const tbb::global_control many_workers(tbb::global_control::max_allowed_parallel
 
 thread_local bool inside = false;
 
-// How often a thread that is inside of f is given another task, which calls it again. There are enough tasks for
-// some to be waiting while a thread waits for the end of a loop that others have a part of.
+// How often a thread that is inside of f is given another task, which calls it again. There are enough tasks
+// for some to be waiting while a thread waits for the end of a loop that others have a part of.
 template <class F>
 int entered_again(int tasks, const F& f) {
   std::atomic<int> again{0};
@@ -51,7 +51,8 @@ TEST_CASE("a thread that waits inside a call does not enter another", "[faults]"
   for (const Call& call : every_call()) {
     const Answer expected = call(subject.mesh(), subject, {});
     std::atomic<int> other_bytes{0};
-    const int again = entered_again(fuzz(40), [&] { other_bytes += call(subject.mesh(), subject, {}) != expected; });
+    const int again =
+        entered_again(fuzz(40), [&] { other_bytes += call(subject.mesh(), subject, {}) != expected; });
     CAPTURE(call.name);
     CHECK(again == 0);
     CHECK(other_bytes == 0);

@@ -27,7 +27,7 @@ PAGE = """# Architecture
 ## The end
 """
 GOOD = {"docs/architecture.md": PAGE, "README.md": "See `base/clock.hpp`.\n", "CONTRIBUTING.md": "", "base/clock.hpp": "struct Clock {};\n",
-        "base/parallel_tbb.cpp": "#include <tbb/task_arena.h>\n", "scene/mesh.hpp": '#include "base/clock.hpp"\n#include <vector>\n'}
+        "base/threads/parallel_tbb.cpp": "#include <tbb/task_arena.h>\n", "scene/mesh.hpp": '#include "base/clock.hpp"\n#include <vector>\n'}
 
 
 def said_about(changes):

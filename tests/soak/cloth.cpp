@@ -38,8 +38,8 @@ auto Cloth::ask(Asked asked, const F& f) {
 }
 
 Cloth::Cloth(std::uint64_t seed, const Timed& timed) : random_(seed), timed_(timed) {
-  const scenes::Scene both = scenes::joined(scenes::translated(scenes::cloth(kUpper, kUpper), {0.02, 0.03, 0.1}),
-                                            scenes::cloth(kLower, kLower));
+  const scenes::Scene both = scenes::joined(
+      scenes::translated(scenes::cloth(kUpper, kUpper), {0.02, 0.03, 0.1}), scenes::cloth(kLower, kLower));
   rest_ = x_ = both.x_t0;
   faces_ = both.faces;
   CollisionRules rules;
@@ -49,7 +49,8 @@ Cloth::Cloth(std::uint64_t seed, const Timed& timed) : random_(seed), timed_(tim
   change_rules({});
 }
 
-// The lower sheet lies still, or its corners, or nothing does; what is too close to have a thickness has none.
+// The lower sheet lies still, or its corners, or nothing does; what is too close to have a thickness has
+// none.
 void Cloth::change_rules(const ClosePairs& close) {
   CollisionRules rules = mesh_.rules();
   rules.static_vertices.assign(std::size_t(x_.rows()), false);
@@ -119,8 +120,7 @@ double Cloth::safe_step(const Eigen::MatrixXd& x_t1, const Eigen::MatrixXd& dx, 
       });
       break;
     default:
-      r = ask(Asked::cfl_step,
-              [&] { return compute_cfl_stepsize(mesh_, x_, x_t1, close, options); });
+      r = ask(Asked::cfl_step, [&] { return compute_cfl_stepsize(mesh_, x_, x_t1, close, options); });
   }
   answer.add(r);
   tally_.limited += r.step < 1;
@@ -151,12 +151,11 @@ void Cloth::step(int threads, Answer& answer) {
   if (at_ % 20 == 19) change_rules(close);
   const Eigen::MatrixXd dx = direction(close), x_t1 = x_ + dx;
   // Rules that have changed have other close pairs.
-  const double s = safe_step(x_t1, dx, at_ % 20 == 19 ? close_pairs(mesh_, x_, kDHat, options) : close, options,
-                             answer);
+  const double s =
+      safe_step(x_t1, dx, at_ % 20 == 19 ? close_pairs(mesh_, x_, kDHat, options) : close, options, answer);
   look(x_t1, options, answer);
   x_ += at_ % 4 == 1 ? Eigen::MatrixXd(s * dx) : Eigen::MatrixXd(s * (x_t1 - x_));
-  const Intersections found =
-      ask(Asked::intersections, [&] { return intersections(mesh_, x_, options); });
+  const Intersections found = ask(Asked::intersections, [&] { return intersections(mesh_, x_, options); });
   answer.add(found, x_);
   tally_.intersecting += !found.empty();
   ++tally_.steps, tally_.moved += s > 0;
@@ -187,8 +186,8 @@ int Cloth::exact_intersections() const {
     for (int f = 0; f < faces_.rows(); ++f) {
       const Eigen::RowVector3i face = faces_.row(f);
       if ((face.array() == e[0]).any() || (face.array() == e[1]).any() || apart(e, face)) continue;
-      count +=
-          oracle::edge_face<Rational>({at(e[0]), at(e[1])}, {at(face[0]), at(face[1]), at(face[2])}).has_value();
+      count += oracle::edge_face<Rational>({at(e[0]), at(e[1])}, {at(face[0]), at(face[1]), at(face[2])})
+                   .has_value();
     }
   return count;
 }

@@ -13,7 +13,17 @@
 namespace onset::tests {
 
 // The calls that are timed.
-enum class Asked { step, line_search, listed_step, cfl_step, close_pairs, active_set, free, intersections, check };
+enum class Asked {
+  step,
+  line_search,
+  listed_step,
+  cfl_step,
+  close_pairs,
+  active_set,
+  free,
+  intersections,
+  check
+};
 constexpr int kAsked = 9;
 const char* name(Asked asked);
 

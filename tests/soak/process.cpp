@@ -11,7 +11,8 @@ namespace onset::tests {
 namespace {
 
 int entries(const char* folder) {
-  return int(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+  return int(
+      std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ class Most {
     at(bytes_, warm, resident_bytes()), at(files_, warm, open_files()), at(threads_, warm, threads_alive());
   }
   void print_and_check() const {
-    std::printf("  resident %.2f MiB after %" PRId64 " steps, %.2f MiB at most after; %" PRId64 " and %" PRId64
-                " files; %" PRId64 " and %" PRId64 " threads\n",
+    std::printf("  resident %.2f MiB after %" PRId64 " steps, %.2f MiB at most after; %" PRId64
+                " and %" PRId64 " files; %" PRId64 " and %" PRId64 " threads\n",
                 double(bytes_[0]) / kMiB, kWarm, double(bytes_[1]) / kMiB, files_[0], files_[1], threads_[0],
                 threads_[1]);
     expect(bytes_[0] > 0 && bytes_[1] - bytes_[0] <= kFlat, "resident memory grows");
@@ -57,8 +57,8 @@ class Most {
   Two bytes_{}, files_{}, threads_{};
 };
 
-// The lives of one tenth of a run. In the last one they are those of the first: what they take can be compared,
-// and what they answer must be the same.
+// The lives of one tenth of a run. In the last one they are those of the first: what they take can be
+// compared, and what they answer must be the same.
 struct Part {
   std::int64_t lives = 0, life = 0;
   int tenth() const { return int(10 * life / lives); }
@@ -82,7 +82,8 @@ void add(const Cloth::Tally& from, Cloth::Tally& to) {
 }
 
 // Runs one life, and returns the hash of its answers.
-std::uint64_t live(const Run& run, const Part& part, Tenth* tenth, Most& most, Cloth::Tally& tally, int& crossed) {
+std::uint64_t live(const Run& run, const Part& part, Tenth* tenth, Most& most, Cloth::Tally& tally,
+                   int& crossed) {
   const Cloth::Timed timed = [&](Asked asked, double seconds) {
     if (tenth != nullptr) tenth->add(asked, seconds);
   };
@@ -99,8 +100,9 @@ std::uint64_t live(const Run& run, const Part& part, Tenth* tenth, Most& most, C
 }
 
 void check_times(const Tenth& first, const Tenth& last) {
-  std::printf("  CPU time in the last tenth by that in the first, of medians and of the same calls: yardstick %.3f",
-              last.yardstick() / first.yardstick());
+  std::printf(
+      "  CPU time in the last tenth by that in the first, of medians and of the same calls: yardstick %.3f",
+      last.yardstick() / first.yardstick());
   bool slower = false;
   for (int k = 0; k < kAsked; ++k) {
     const double medians = last.ratio_of_medians(Asked(k), first);
@@ -126,8 +128,11 @@ void soak(const Run& run, std::int64_t steps) {
   Answer all;
   for (Part part{lives, 0}; part.life < lives; ++part.life) {
     const int tenth = part.tenth();
-    const std::uint64_t hash =
-        live(run, part, tenth == 0 ? &first : tenth == 9 ? &last : nullptr, most, tally, crossed);
+    const std::uint64_t hash = live(run, part,
+                                    tenth == 0   ? &first
+                                    : tenth == 9 ? &last
+                                                 : nullptr,
+                                    most, tally, crossed);
     all.add(hash);
     std::uint64_t& expected = hashes_of_lives[std::size_t(part.life)];
     if (is_first) expected = hash;
@@ -138,11 +143,13 @@ void soak(const Run& run, std::int64_t steps) {
     else
       blocks_grew = std::max(blocks_grew, live_blocks() - blocks);
   }
-  std::printf("%s: %" PRId64 " steps, %.1f %% moved, %.1f %% limited, %.1f close pairs and %.1f contacts each\n",
-              run.name, tally.steps, 100.0 * double(tally.moved) / double(tally.steps),
-              100.0 * double(tally.limited) / double(tally.steps),
-              double(tally.close_pairs) / double(tally.steps), 5.0 * double(tally.contacts) / double(tally.steps));
-  std::printf("  bytes %016" PRIx64 "; %" PRId64 " steps ended with intersections, %d found by rational arithmetic\n",
+  std::printf(
+      "%s: %" PRId64 " steps, %.1f %% moved, %.1f %% limited, %.1f close pairs and %.1f contacts each\n",
+      run.name, tally.steps, 100.0 * double(tally.moved) / double(tally.steps),
+      100.0 * double(tally.limited) / double(tally.steps), double(tally.close_pairs) / double(tally.steps),
+      5.0 * double(tally.contacts) / double(tally.steps));
+  std::printf("  bytes %016" PRIx64 "; %" PRId64
+              " steps ended with intersections, %d found by rational arithmetic\n",
               all.hash(), tally.intersecting, crossed);
   most.print_and_check();
   std::printf("  blocks of memory more than after %" PRId64 " steps: %" PRId64 "\n", kWarm, blocks_grew);

@@ -29,7 +29,8 @@ struct Stack {
     std::fill(begin, begin + kWords, kPaint);
   }
   std::size_t used() const {
-    return std::size_t(begin + kWords - std::find_if(begin, begin + kWords, [](Word w) { return w != kPaint; })) *
+    return std::size_t(begin + kWords -
+                       std::find_if(begin, begin + kWords, [](Word w) { return w != kPaint; })) *
            sizeof(Word);
   }
   void paint_again() { std::fill(begin + kWords - used() / sizeof(Word), begin + kWords, kPaint); }
@@ -86,7 +87,8 @@ WorkerStacks stacks_of_workers() {
 
 #ifdef ONSET_PAINTS_THREADS
 // Takes the place of the system's, in this program and in the libraries that it loads.
-extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* wanted, void* (*run)(void*), void* context) {
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* wanted, void* (*run)(void*),
+                              void* context) {
   using namespace onset::tests;
   static const auto create = reinterpret_cast<decltype(&pthread_create)>(dlsym(RTLD_NEXT, "pthread_create"));
   Stack* stack = next_stack;

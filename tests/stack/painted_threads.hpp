@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <functional>
 
-// Only in optimised builds: others have frames several times as large, and sanitizers make threads their own way.
-#if defined(__OPTIMIZE__) && defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Only in optimised builds: others have frames several times as large, and sanitizers make threads their own
+// way.
+#if defined(__OPTIMIZE__) && defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define ONSET_PAINTS_THREADS
 #endif
 #if defined(__has_feature)

@@ -1,5 +1,5 @@
-// No call needs more than 64 KiB of a thread's stack, what TBB needs among it, but beyond what the system puts
-// there. It is measured in optimised builds: others have frames several times as large.
+// No call needs more than 64 KiB of a thread's stack, what TBB needs among it, but beyond what the system
+// puts there. It is measured in optimised builds: others have frames several times as large.
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -72,8 +72,8 @@ std::vector<Options> settings() {
   return all;
 }
 
-// The vertex meets the plane of the face, or the face is flat, at three times that are closer to each other and
-// to the start than 1e-300 / size.
+// The vertex meets the plane of the face, or the face is flat, at three times that are closer to each other
+// and to the start than 1e-300 / size.
 scenes::Query roots_close_together(double size) {
   scenes::Query q;
   q.t0 = {{{0, 0, -1e-300}, {0, 0, 0}, {-2e-300, 0, 0}, {0, -3e-300, 0}}};

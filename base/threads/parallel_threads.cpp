@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "base/parallel.hpp"
-#include "base/thread_pool.hpp"
+#include "base/threads/thread_pool.hpp"
 
 namespace onset {
 namespace {
