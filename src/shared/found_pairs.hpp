@@ -146,7 +146,7 @@ class FoundPairs {
     std::size_t left = std::min(kRowsCutOff, most_), parts = 0;
     for (; parts < parts_.size() && left > 0; ++parts) {
       std::vector<PairResult>& results = parts_[parts].results;
-      results.resize(std::min(results.size(), left), results.front());
+      if (results.size() > left) results.erase(results.begin() + std::ptrdiff_t(left), results.end());
       left -= results.size();
     }
     parallel_ranges(parts_.size() - parts, 64, [&](std::size_t first, std::size_t last) {
