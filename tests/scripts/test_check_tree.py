@@ -15,6 +15,7 @@ PAGE = """# Architecture
 | folder | what may happen in it |
 |---|---|
 | `base/` | What knows no geometry is here. |
+| `base/threads/` | Loops run on threads. |
 | `scene/` | What can touch is said here. |
 
 ## Who may include whom
@@ -22,6 +23,7 @@ PAGE = """# Architecture
 | who | may include |
 |---|---|
 | `base/` | nothing else |
+| `base/threads/` | `base/` |
 | `scene/` | `base/` |
 
 ## The end
