@@ -132,7 +132,7 @@ class TopLevel(ConfigureTest):
         self.assertFalse(any(" -O" in command for command in self.library("Debug/")))
 
     def test_presets_are_listed(self):
-        for kind, names in (("configure", PRESETS), ("build", PRESETS), ("test", ("dev", "checked"))):
+        for kind, names in (("configure", (*PRESETS, "fuzz")), ("build", PRESETS), ("test", ("dev", "checked"))):
             status, said = self.run_command(CMAKE, f"--list-presets={kind}", cwd=SOURCE)
             self.assertEqual(status, 0, said)
             self.assertEqual(re.findall(r'^ *"(\w+)"', said, re.MULTILINE), list(names))
