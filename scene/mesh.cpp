@@ -103,26 +103,26 @@ void Mesh::set_rules(const CollisionRules& rules) {
     data.rules = std::make_shared<const CollisionRules>(rules);
   });
 }
-const CollisionRules& Mesh::rules() const { return *data_->rules; }
+const CollisionRules& Mesh::rules() const noexcept { return *data_->rules; }
 
-std::ptrdiff_t Mesh::num_vertices() const { return data_->num_vertices; }
-std::ptrdiff_t Mesh::num_edges() const { return std::ptrdiff_t(data_->edges.size()); }
-std::ptrdiff_t Mesh::num_points() const { return data_->num_points; }
-std::ptrdiff_t Mesh::num_faces() const { return std::ptrdiff_t(data_->faces.size()); }
+std::ptrdiff_t Mesh::num_vertices() const noexcept { return data_->num_vertices; }
+std::ptrdiff_t Mesh::num_edges() const noexcept { return std::ptrdiff_t(data_->edges.size()); }
+std::ptrdiff_t Mesh::num_points() const noexcept { return data_->num_points; }
+std::ptrdiff_t Mesh::num_faces() const noexcept { return std::ptrdiff_t(data_->faces.size()); }
 std::array<int, 2> Mesh::edge(std::ptrdiff_t row) const { return data_->edges.at(std::size_t(row)); }
 std::array<int, 3> Mesh::face(std::ptrdiff_t row) const { return data_->faces.at(std::size_t(row)); }
 
-int Mesh::num_bodies() const { return count_bodies(*data_); }
+int Mesh::num_bodies() const noexcept { return count_bodies(*data_); }
 int Mesh::body(std::ptrdiff_t vertex) const {
   return data_->body.empty() ? 0 : data_->body.at(std::size_t(vertex));
 }
-std::ptrdiff_t Mesh::num_full_vertices() const { return data_->num_full_vertices; }
+std::ptrdiff_t Mesh::num_full_vertices() const noexcept { return data_->num_full_vertices; }
 int Mesh::full_vertex(std::ptrdiff_t vertex) const {
   return data_->full_vertex.empty() ? int(vertex) : data_->full_vertex.at(std::size_t(vertex));
 }
-const FilterCounts& Mesh::filter_counts() const { return data_->filter->counts; }
+const FilterCounts& Mesh::filter_counts() const noexcept { return data_->filter->counts; }
 
-void Mesh::release_memory() const {
+void Mesh::release_memory() const noexcept {
   data_->broad_phases->clear();
   if (!data_->static_cache) return;
   data_->static_cache->motion.clear();

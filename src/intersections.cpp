@@ -69,7 +69,7 @@ Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, st
       });
 }
 
-const char* to_string(IntersectionKind kind) {
+const char* to_string(IntersectionKind kind) noexcept {
   switch (kind) {
     case IntersectionKind::crossing:
       return "crossing";
@@ -81,7 +81,7 @@ const char* to_string(IntersectionKind kind) {
   return "unknown";
 }
 
-std::size_t Intersections::count(IntersectionKind kind) const {
+std::size_t Intersections::count(IntersectionKind kind) const noexcept {
   return std::size_t(
       std::count_if(pairs.begin(), pairs.end(), [&](const Intersection& p) { return p.kind == kind; }));
 }

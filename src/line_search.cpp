@@ -84,7 +84,7 @@ std::vector<double> LineSearch::Impl::at(double step) const {
   return x;
 }
 
-LineSearch::LineSearch() = default;
+LineSearch::LineSearch() noexcept = default;
 
 LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx,
                        const LineSearchOptions& options)

@@ -4,7 +4,7 @@
 
 namespace onset {
 
-const char* to_string(PairKind kind) {
+const char* to_string(PairKind kind) noexcept {
   switch (kind) {
     case PairKind::vertex_face:
       return "vertex_face";
@@ -14,7 +14,7 @@ const char* to_string(PairKind kind) {
   return "unknown";
 }
 
-const char* to_string(PairOutcome outcome) {
+const char* to_string(PairOutcome outcome) noexcept {
   switch (outcome) {
     case PairOutcome::free:
       return "free";
@@ -36,7 +36,7 @@ const char* to_string(PairOutcome outcome) {
   return "unknown";
 }
 
-const char* to_string(Outcome outcome) {
+const char* to_string(Outcome outcome) noexcept {
   switch (outcome) {
     case Outcome::free:
       return "free";
@@ -64,7 +64,7 @@ const char* to_string(Outcome outcome) {
   return "unknown";
 }
 
-const char* to_string(Certainty certainty) {
+const char* to_string(Certainty certainty) noexcept {
   switch (certainty) {
     case Certainty::within_tolerance:
       return "within_tolerance";
@@ -76,7 +76,7 @@ const char* to_string(Certainty certainty) {
   return "unknown";
 }
 
-const Contact* ActiveSet::earliest() const {
+const Contact* ActiveSet::earliest() const noexcept {
   const Contact* best = nullptr;
   for (const Contact& contact : contacts)
     if (best == nullptr || contact.toi < best->toi) best = &contact;

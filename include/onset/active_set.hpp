@@ -23,13 +23,13 @@ struct ActiveSet {
   double complete_until = 0;
   Stats stats;
 
-  std::size_t size() const { return contacts.size(); }
-  bool empty() const { return contacts.empty(); }
-  auto begin() const { return contacts.begin(); }
-  auto end() const { return contacts.end(); }
-  const Contact& operator[](std::size_t i) const { return contacts[i]; }
+  std::size_t size() const noexcept { return contacts.size(); }
+  bool empty() const noexcept { return contacts.empty(); }
+  auto begin() const noexcept { return contacts.begin(); }
+  auto end() const noexcept { return contacts.end(); }
+  const Contact& operator[](std::size_t i) const noexcept { return contacts[i]; }
   // The contact with the least (toi, place in the order); null where the set is empty.
-  ONSET_API const Contact* earliest() const;
+  ONSET_API const Contact* earliest() const noexcept;
 };
 
 // Finds every pair that is not certified free on the whole step, its time of impact, point and normal.

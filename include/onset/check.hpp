@@ -29,7 +29,7 @@ enum class StartFault : std::uint8_t {
   // Vertices of no edge and no face, nor declared as points.
   unused_vertices,
 };
-ONSET_API const char* to_string(StartFault fault);
+ONSET_API const char* to_string(StartFault fault) noexcept;
 
 // One kind of fault.
 struct StartFinding {
@@ -68,11 +68,11 @@ struct StartReport {
   double seconds = 0;
 
   // Whether a step may start here: it is known that no pair intersects, touches or is within its separation.
-  bool acceptable() const {
+  bool acceptable() const noexcept {
     return outcome == Outcome::free && intersections.empty() && touching.empty() && within_separation.empty();
   }
   // Whether nothing at all was found.
-  bool clean() const { return outcome == Outcome::free && findings.empty(); }
+  bool clean() const noexcept { return outcome == Outcome::free && findings.empty(); }
 };
 
 // Lists all that may be wrong with x as the start of a step with these options.

@@ -42,9 +42,9 @@ struct ClosePairs {
   int vertex = -1;
   double seconds = 0;
 
-  std::size_t size() const { return pairs.size(); }
-  auto begin() const { return pairs.begin(); }
-  auto end() const { return pairs.end(); }
+  std::size_t size() const noexcept { return pairs.size(); }
+  auto begin() const noexcept { return pairs.begin(); }
+  auto end() const noexcept { return pairs.end(); }
 };
 
 // Finds every pair whose exact distance at x is below d_hat plus its separation.

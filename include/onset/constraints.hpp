@@ -19,7 +19,7 @@ struct Constraints {
   std::vector<double> value;
   // eta, one a row.
   std::vector<double> bound;
-  std::ptrdiff_t rows() const { return std::ptrdiff_t(bound.size()); }
+  std::ptrdiff_t rows() const noexcept { return std::ptrdiff_t(bound.size()); }
 };
 
 // Makes a linear inequality of each contact: <n, p1 - p2> >= eta, with the normal and the weights at its toi.

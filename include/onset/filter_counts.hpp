@@ -20,7 +20,9 @@ struct PairFilterCounts {
   std::int64_t adjacent = 0;
   // Named by CollisionRules::excluded_bodies and the like.
   std::int64_t excluded = 0;
-  std::int64_t may_meet() const { return pairs - masked - both_static - same_body - adjacent - excluded; }
+  std::int64_t may_meet() const noexcept {
+    return pairs - masked - both_static - same_body - adjacent - excluded;
+  }
 };
 
 // Primitives of one kind.

@@ -24,12 +24,12 @@ struct Intersections {
   int vertex = -1;
   double seconds = 0;
 
-  std::size_t size() const { return pairs.size(); }
-  bool empty() const { return pairs.empty(); }
-  auto begin() const { return pairs.begin(); }
-  auto end() const { return pairs.end(); }
+  std::size_t size() const noexcept { return pairs.size(); }
+  bool empty() const noexcept { return pairs.empty(); }
+  auto begin() const noexcept { return pairs.begin(); }
+  auto end() const noexcept { return pairs.end(); }
   // How many of them are of one kind.
-  ONSET_API std::size_t count(IntersectionKind kind) const;
+  ONSET_API std::size_t count(IntersectionKind kind) const noexcept;
 };
 
 // Finds every edge and face that have a common point, without sharing a vertex.

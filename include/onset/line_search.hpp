@@ -53,7 +53,7 @@ struct LineSearchStep : StepResult {
 class ONSET_API LineSearch {
  public:
   // Holds nothing: its calls throw std::logic_error.
-  LineSearch();
+  LineSearch() noexcept;
   // x_t0, dx: #V x 3 (or flat), model length; x_t1 = x_t0 + dx is formed here.
   // Throws as compute_collision_free_stepsize, and std::invalid_argument for gap_share or d_hat out of range.
   LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx,

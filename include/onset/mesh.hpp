@@ -23,7 +23,7 @@ struct MeshData;  // scene/mesh_data.hpp
 //
 // Checked once, shared by every call. Immutable but for the two set_ functions. Const calls from any number
 // of threads are safe, a set_ function with any other call is not. Copies share their data until one of them
-// is changed.
+// is changed. What throws, for want of memory too (std::bad_alloc), leaves a mesh as it was.
 class ONSET_API Mesh {
  public:
   // Of no vertices: to be assigned to.
@@ -51,14 +51,14 @@ class ONSET_API Mesh {
   // Replaces the rules. Throws std::invalid_argument naming the rule and the row, and then leaves the mesh as
   // it was. O(#V + #E + #F), n log n with bodies.
   void set_rules(const CollisionRules& rules);
-  const CollisionRules& rules() const;
+  const CollisionRules& rules() const noexcept;
 
-  std::ptrdiff_t num_vertices() const;
+  std::ptrdiff_t num_vertices() const noexcept;
   // With those of length zero that points are.
-  std::ptrdiff_t num_edges() const;
-  std::ptrdiff_t num_faces() const;
+  std::ptrdiff_t num_edges() const noexcept;
+  std::ptrdiff_t num_faces() const noexcept;
   // Those that the rules declare.
-  std::ptrdiff_t num_points() const;
+  std::ptrdiff_t num_points() const noexcept;
   std::array<int, 2> edge(std::ptrdiff_t row) const;
   std::array<int, 3> face(std::ptrdiff_t row) const;
 
@@ -66,7 +66,7 @@ class ONSET_API Mesh {
   // first vertex; a point is a body.
   std::vector<int> components() const;
   // The largest body id of the rules that are set, plus 1.
-  int num_bodies() const;
+  int num_bodies() const noexcept;
   int body(std::ptrdiff_t vertex) const;
   // One value a body (num_bodies() of them) as one value a vertex, for the bodies of the rules that are set
   // already: set CollisionRules::bodies before asking for flags of its bodies.
@@ -79,14 +79,14 @@ class ONSET_API Mesh {
   }
 
   // Which pairs remain and what left the others out.
-  const FilterCounts& filter_counts() const;
+  const FilterCounts& filter_counts() const noexcept;
 
   // Where this is the surface of a full (tetrahedral) mesh: the full mesh's vertex of each vertex (#V
   // different ids in [0, full_vertices)). All positions stay those of the surface; the functions below map
   // between the two.
   // Throws std::invalid_argument naming the row.
   void set_full_vertices(const std::vector<int>& ids, std::ptrdiff_t full_vertices);
-  std::ptrdiff_t num_full_vertices() const;
+  std::ptrdiff_t num_full_vertices() const noexcept;
   int full_vertex(std::ptrdiff_t vertex) const;
   std::array<int, 4> full_vertices(const Pair& pair) const;
   // 3 full_vertex + axis, in the pair's order.
@@ -96,9 +96,9 @@ class ONSET_API Mesh {
 
   // Frees the trees of the latest calls, their order and memory, which a mesh keeps for the next call on it.
   // That gives the same bytes with and without. Safe to call at any time.
-  void release_memory() const;
+  void release_memory() const noexcept;
 
-  const MeshData& data() const { return *data_; }
+  const MeshData& data() const noexcept { return *data_; }
 
  private:
   template <class F>

@@ -25,7 +25,7 @@ struct EdgeEdgeQuery {
 // free, toi is infinite, and there is no point or normal. Positions that are not usable: toi 0.
 struct QueryResult : Contact {
   std::int64_t checks = 0;
-  bool collides() const { return outcome != PairOutcome::free; }
+  bool collides() const noexcept { return outcome != PairOutcome::free; }
 };
 
 // Decides one pair on its own: when does it touch, where, with which normal. Touching counts as contact.

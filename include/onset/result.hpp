@@ -12,7 +12,7 @@
 namespace onset {
 
 enum class PairKind : std::uint8_t { vertex_face, edge_edge };
-ONSET_API const char* to_string(PairKind kind);
+ONSET_API const char* to_string(PairKind kind) noexcept;
 
 // One pair of primitives.
 struct Pair {
@@ -26,7 +26,7 @@ struct Pair {
 
 struct PairCounts {
   std::int64_t vertex_face = 0, edge_edge = 0;
-  std::int64_t total() const { return vertex_face + edge_edge; }
+  std::int64_t total() const noexcept { return vertex_face + edge_edge; }
 };
 
 // How one pair ended.
@@ -47,7 +47,7 @@ enum class PairOutcome : std::uint8_t {
   non_finite,
   out_of_range,
 };
-ONSET_API const char* to_string(PairOutcome outcome);
+ONSET_API const char* to_string(PairOutcome outcome) noexcept;
 
 // How a call ended. Everything a running solver can produce is one of these, never an exception.
 enum class Outcome : std::uint8_t {
@@ -75,7 +75,7 @@ enum class Outcome : std::uint8_t {
   out_of_checks,
   cancelled,
 };
-ONSET_API const char* to_string(Outcome outcome);
+ONSET_API const char* to_string(Outcome outcome) noexcept;
 
 // What is known about a contact beyond "not certified free".
 enum class Certainty : std::uint8_t {
@@ -86,7 +86,7 @@ enum class Certainty : std::uint8_t {
   // The same, and already at t = 0.
   touching_at_start,
 };
-ONSET_API const char* to_string(Certainty certainty);
+ONSET_API const char* to_string(Certainty certainty) noexcept;
 
 // A pair that is not certified free on a step, where and how it touches. Times are in [0, 1], in units of the
 // step; lengths in model length.
@@ -140,7 +140,7 @@ enum class IntersectionKind : std::uint8_t {
   // A segment: the edge lies in the plane of the face, or along a face without area.
   overlapping,
 };
-ONSET_API const char* to_string(IntersectionKind kind);
+ONSET_API const char* to_string(IntersectionKind kind) noexcept;
 
 struct Intersection {
   int edge = -1, face = -1;

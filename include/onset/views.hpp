@@ -18,7 +18,7 @@ namespace onset {
 class Positions {
  public:
   // From interleaved memory: xyz of vertex 0, xyz of vertex 1, ..., 3 `vertices` doubles.
-  Positions(const double* xyz, std::ptrdiff_t vertices)
+  Positions(const double* xyz, std::ptrdiff_t vertices) noexcept
       : data_(xyz), rows_(vertices), cols_(3), row_stride_(3), col_stride_(1) {}
 
   // From any Eigen matrix (column- or row-major, a Map, a block, float or double) of #V x 3, or from a flat
@@ -40,16 +40,16 @@ class Positions {
     }
   }
 
-  std::ptrdiff_t rows() const { return rows_; }
+  std::ptrdiff_t rows() const noexcept { return rows_; }
   // 3, or what the caller passed by mistake.
-  std::ptrdiff_t cols() const { return cols_; }
-  double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const {
+  std::ptrdiff_t cols() const noexcept { return cols_; }
+  double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const noexcept {
     return data_[row * row_stride_ + col * col_stride_];
   }
   // Where (0, 0) is, and how many doubles on the next row and column are.
-  const double* data() const { return data_; }
-  std::ptrdiff_t row_stride() const { return row_stride_; }
-  std::ptrdiff_t col_stride() const { return col_stride_; }
+  const double* data() const noexcept { return data_; }
+  std::ptrdiff_t row_stride() const noexcept { return row_stride_; }
+  std::ptrdiff_t col_stride() const noexcept { return col_stride_; }
 
  private:
   void assign(const double* data, std::ptrdiff_t rows, std::ptrdiff_t cols, std::ptrdiff_t row_stride,
@@ -72,7 +72,7 @@ class Positions {
 // copy. The mesh that gets it checks ids and shape.
 class Indices {
  public:
-  Indices() = default;
+  Indices() noexcept = default;
   template <class Derived>
   Indices(const Eigen::DenseBase<Derived>& m)
       : rows_(m.rows()), cols_(m.cols()) {  // NOLINT: implicit by design
@@ -82,9 +82,9 @@ class Indices {
     for (std::ptrdiff_t r = 0; r < rows_; ++r)
       for (std::ptrdiff_t c = 0; c < cols_; ++c) ids_.push_back(static_cast<long long>(e(r, c)));
   }
-  std::ptrdiff_t rows() const { return rows_; }
-  std::ptrdiff_t cols() const { return cols_; }
-  long long operator()(std::ptrdiff_t row, std::ptrdiff_t col) const {
+  std::ptrdiff_t rows() const noexcept { return rows_; }
+  std::ptrdiff_t cols() const noexcept { return cols_; }
+  long long operator()(std::ptrdiff_t row, std::ptrdiff_t col) const noexcept {
     return ids_[std::size_t(row * cols_ + col)];
   }
 

@@ -112,7 +112,7 @@ std::vector<StartFinding> start_findings(const Mesh& mesh, const StartReport& r)
   return findings;
 }
 
-const char* to_string(StartFault fault) {
+const char* to_string(StartFault fault) noexcept {
   switch (fault) {
     case StartFault::intersecting:
       return "intersecting";

@@ -181,3 +181,30 @@ TEST_CASE("a mesh that cannot be changed for want of memory is as it was", "[fau
       }
   }
 }
+
+TEST_CASE("what is said to allocate nothing does not", "[faults]") {
+  const Subject s = std::move(small_subjects().back());
+  const Mesh mesh = s.mesh();
+  Mesh from = s.mesh(), to;
+  LineSearch line(mesh, s.scene.x_t0, s.dx), other;
+  StepResult step = compute_collision_free_stepsize(mesh, s.scene.x_t0, s.scene.x_t1);
+  ActiveSet set = s.set, taken;
+  std::int64_t count = 0;
+  {
+    const FailingAllocations none_left(1, Shortage::lasting);
+    const Positions x(s.scene.x_t0), dx(s.dx);
+    safe_step(s.safe, dx);
+    in_default_float_environment([&] { step.step = x(0, 0) / 3; });
+    const Mesh copy = mesh;
+    to = std::move(from);
+    to = copy;
+    other = std::move(line);
+    other.candidates(), other.close_candidates();
+    taken = std::move(set);
+    taken.earliest(), to_string(taken.outcome);
+    copy.num_bodies(), copy.full_dofs(s.set[0]), copy.rules(), copy.filter_counts();
+    mesh.release_memory();
+    count = none_left.count();
+  }
+  CHECK(count == 0);
+}
