@@ -63,8 +63,8 @@ MeshFile read(InputFile& file, const std::string& path, const Format& format) {
   std::string bytes(1 << 16, '\0');
   bytes.resize(file.read(bytes.data(), bytes.size()));
   if (bytes.empty()) throw InputError(path + ": the file is empty");
-  if (is_wide(bytes)) throw InputError(path + ": UTF-16: save it as UTF-8");
   const bool is_text = format.is_text(path, bytes, file.size());
+  if (is_text && is_wide(bytes)) throw InputError(path + ": UTF-16: save it as UTF-8");
   return format.read(path, read_rest(file, path, std::move(bytes), is_text));
 }
 
