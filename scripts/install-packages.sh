@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, profile
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
@@ -8,6 +8,7 @@ apps="libcli11-dev nlohmann-json3-dev libcgal-dev libboost-dev"
 tests="catch2 nlohmann-json3-dev libboost-dev libgmp-dev libfcl-dev git pkg-config python3 python3-venv ca-certificates"
 peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
 clang="clang libclang-rt-dev"
+tidy="clang clang-tidy"
 profile="linux-perf valgrind"
 
 wanted=
@@ -18,6 +19,7 @@ for group; do
     tests) wanted="$wanted $tests" ;;
     peers) wanted="$wanted $peers" ;;
     clang) wanted="$wanted $clang" ;;
+    tidy) wanted="$wanted $tidy" ;;
     profile) wanted="$wanted $profile" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
