@@ -215,7 +215,7 @@ TEST_CASE("every chunk has the floating-point environment of the library", "[uni
 #endif
 
 TEST_CASE("a thread that waits for a host's parallel work takes on no chunk of the loop",
-          "[unit][parallel]") {
+          "[unit][parallel][tbb]") {
   thread_local bool inside = false;
   std::atomic<int> intruders{0};
   in_arena(4, [&] {

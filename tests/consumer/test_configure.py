@@ -10,7 +10,7 @@ from support import CMAKE, SOURCE, OutsideTest, environment
 
 FOR_TESTS = ("Catch2", "fcl")
 FOR_APPS = ("CLI11",)
-PRESETS = ("release", "debug", "dev", "checked")
+PRESETS = ("release", "debug", "dev", "checked", "tsan")
 with_apps = unittest.skipIf(os.environ.get("APPS") == "0", "what the apps need is not known to be here")
 with_ninja = unittest.skipUnless(shutil.which("ninja"), "no ninja")
 PARENT = f"""cmake_minimum_required(VERSION 3.22)
@@ -132,7 +132,7 @@ class TopLevel(ConfigureTest):
         self.assertFalse(any(" -O" in command for command in self.library("Debug/")))
 
     def test_presets_are_listed(self):
-        for kind, names in (("configure", (*PRESETS, "fuzz")), ("build", PRESETS), ("test", ("dev", "checked"))):
+        for kind, names in (("configure", (*PRESETS[:-1], "fuzz", "tsan")), ("build", PRESETS), ("test", ("dev", "checked", "tsan"))):
             status, said = self.run_command(CMAKE, f"--list-presets={kind}", cwd=SOURCE)
             self.assertEqual(status, 0, said)
             self.assertEqual(re.findall(r'^ *"(\w+)"', said, re.MULTILINE), list(names))

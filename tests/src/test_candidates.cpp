@@ -202,7 +202,7 @@ TEST_CASE("listed candidates obey the rules of the mesh, and must be complete", 
   CHECK_THROWS_WITH(visit_candidates(mesh, x_t0, x_t1, CandidateVisitor()), Catch::Contains("visit"));
 }
 
-TEST_CASE("progress may run parallel work of its own", "[unit]") {
+TEST_CASE("progress may run parallel work of its own", "[unit][tbb]") {
   const NamedScene named = some_scenes().front();
   const Mesh mesh = named.mesh();
   for (int round = 0; round < 20; ++round) {

@@ -70,7 +70,7 @@ void check_in(const Mode& mode, const Call& call, const Subject& subject, const 
 
 }  // namespace
 
-TEST_CASE("no floating-point environment of the host changes a byte of any call", "[determinism]") {
+TEST_CASE("no floating-point environment of the host changes a byte of any call", "[determinism][tbb]") {
   std::vector<Subject> subjects = small_subjects();
   if (fuzz(4) >= 4)
     for (const NamedScene& named : some_scenes()) subjects.emplace_back(named.name, named.scene);
@@ -88,7 +88,7 @@ TEST_CASE("no floating-point environment of the host changes a byte of any call"
 
 // In a run of the tests each call has one mode with each number of threads; ONSET_FUZZ=3 asks for all of
 // them.
-TEST_CASE("recorded steps mind no floating-point environment either", "[determinism][data]") {
+TEST_CASE("recorded steps mind no floating-point environment either", "[determinism][tbb][data]") {
   const std::string folder = scenes::data_folder("recorded steps mind no floating-point environment either");
   if (folder.empty()) return;
   const bool all = fuzz(1) >= 3;
@@ -112,7 +112,7 @@ TEST_CASE("recorded steps mind no floating-point environment either", "[determin
 }
 
 // An arena keeps the environment of whoever made it, and so do its workers.
-TEST_CASE("arenas that were made in one environment are used in another", "[determinism]") {
+TEST_CASE("arenas that were made in one environment are used in another", "[determinism][tbb]") {
   const Subject subject = std::move(small_subjects().back());
   std::vector<Answer> clean;
   for (const Call& call : every_call()) clean.push_back(call(subject.mesh(), subject, {}));
@@ -142,7 +142,7 @@ TEST_CASE("arenas that were made in one environment are used in another", "[dete
   }
 }
 
-TEST_CASE("single queries mind no floating-point environment either", "[determinism]") {
+TEST_CASE("single queries mind no floating-point environment either", "[determinism][tbb]") {
   VertexFaceQuery query;
   query.t0 = {{{0.25, 0.25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   query.t1 = {{{0.25, 0.25, -1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
@@ -168,7 +168,7 @@ TEST_CASE("single queries mind no floating-point environment either", "[determin
   }
 }
 
-TEST_CASE("a host finds its environment again where its own work throws", "[determinism]") {
+TEST_CASE("a host finds its environment again where its own work throws", "[determinism][tbb]") {
   const Host host(0x2000);  // downward, every trap on
   double third = 0;
   bool threw = false;
@@ -186,7 +186,7 @@ TEST_CASE("a host finds its environment again where its own work throws", "[dete
 }
 
 // A comparison with NaN is an invalid operation.
-TEST_CASE("what is not a number is refused, not trapped", "[determinism]") {
+TEST_CASE("what is not a number is refused, not trapped", "[determinism][tbb]") {
   const Subject s = std::move(small_subjects().front());
   const Mesh mesh = s.mesh();
   const std::vector<double> nans(std::size_t(mesh.num_vertices()), NAN);
