@@ -77,9 +77,10 @@ bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& 
       lo[i] = std::min(lo[i], x), hi[i] = std::max(hi[i], x);
     }
   const float extent = std::max(hi[0] - lo[0], std::max(hi[1] - lo[1], hi[2] - lo[2]));
+  if (!(extent > 0)) return false;
   grid.scale = float(1 << kCurveBits) / extent;
   std::copy(lo, lo + 3, grid.lo);
-  return extent > 0 && grid.scale < 0x1p126f;
+  return grid.scale < 0x1p126f;
 }
 
 constexpr std::size_t kFew = 1024;  // so few are sorted faster by comparing

@@ -50,7 +50,7 @@ std::optional<DoubleBracket> bracket_of(const T (&f)[4], int bits, std::uint64_t
     else
       c[1] = a, c[2] = am, c[3] = middle;
   }
-  const double s = (c[0] < 0) != (c[3] < 0) ? approximate_root(c) : 0.5;
+  const double s = approximate_root(c);
   const double slope =
       3 * (((c[1] - c[0]) * (1 - s) + 2 * (c[2] - c[1]) * s) * (1 - s) + (c[3] - c[2]) * s * s) / width;
   double t = lo + s * width;

@@ -121,7 +121,8 @@ void isolate(const IntegerPolynomial& p, const Coefficients& b, std::vector<Isol
       roots.push_back({p, piece.k, piece.depth, false});
       continue;
     }
-    Piece left{{}, 2 * piece.k, piece.depth + 1}, right{{}, left.k + 1, left.depth};
+    Piece left{{}, 2 * piece.k, piece.depth + 1};
+    Piece right{{}, 2 * piece.k + 1, piece.depth + 1};
     halve(piece.b, left.b, right.b);
     open.push_back(std::move(right));
     open.push_back(std::move(left));

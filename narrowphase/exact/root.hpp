@@ -39,15 +39,18 @@ inline Dyadic to_dyadic(double t) {
   return e < 0 ? Dyadic{m << -e, 0} : Dyadic{m, e};
 }
 
-// Approximates the root in (0, 1) of the cubic with Bernstein coefficients c, c[0] c[3] < 0.
+// Approximates the root in (0, 1) of the cubic with Bernstein coefficients c; the middle, where the signs of
+// its ends do not differ or have been rounded away.
 inline double approximate_root(const double (&c)[4]) {
+  if ((c[0] < 0) == (c[3] < 0)) return 0.5;
   const double c1 = 3 * (c[1] - c[0]), c2 = 3 * (c[0] - 2 * c[1] + c[2]),
                c3 = (c[3] - c[0]) - 3 * (c[2] - c[1]);
   double lo = 0, hi = 1, s = c[0] / (c[0] - c[3]);
   for (int i = 0; i < 8; ++i) {
     const double f = ((c3 * s + c2) * s + c1) * s + c[0];
     ((f < 0) == (c[0] < 0) ? lo : hi) = s;
-    const double next = s - f / ((3 * c3 * s + 2 * c2) * s + c1);
+    const double slope = (3 * c3 * s + 2 * c2) * s + c1;
+    const double next = slope != 0 ? s - f / slope : lo;
     s = next > lo && next < hi ? next : 0.5 * (lo + hi);
   }
   return s;
