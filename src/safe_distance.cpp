@@ -41,6 +41,13 @@ void check_close(const Mesh& mesh, const ClosePairs& close) {
       throw std::invalid_argument("close pair " + std::to_string(i) + " is not a pair of this mesh");
 }
 
+// Returns a little less than a / b, at least 0. 2^-1073 covers both roundings where the quotient is
+// subnormal.
+double below_quotient(double a, double b) {
+  const double q = a / b * (1 - 0x1p-48);
+  return std::max(0.0, q < 0x1p-1000 ? q - 0x1p-1073 : q);
+}
+
 double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0), dx(v, 1), dx(v, 2)); }
 
 // docs/theory.md, L49 proves the bound. kStoring (scene/motion/storing.hpp) times the largest coordinate, or
@@ -67,14 +74,15 @@ double step_by_gaps(const Positions& x_t0, const Positions& x_t1, const ClosePai
     for (int a = 0; a < 3; ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
   std::vector<double> r = distances_by_gaps(x_t0, close);
   if (gap_share > 0)
-    for (double& of_vertex : r) of_vertex *= (1 - gap_share) * (1 - 0x1p-50);
+    for (double& of_vertex : r)  // 2^-1074 covers a subnormal product
+      of_vertex = std::max(0.0, of_vertex * ((1 - gap_share) * (1 - 0x1p-50)) - 0x1p-1074);
   return safe_step(r, Positions(dx.data(), x_t0.rows()));
 }
 
 // Returns until when unlisted pairs are safe if they have `room`: they are beyond d_hat of their separation,
 // and at s no vertex has moved by more than s `moved` (docs/theory.md, L49).
 double time_for_others(double room, double moved) {
-  return moved > 0 ? std::max(0.0, room) / (2 * moved) * (1 - 0x1p-48) : INFINITY;
+  return moved > 0 ? below_quotient(std::max(0.0, room), 2 * moved) : INFINITY;
 }
 
 double most_moved(const Motion& motion) {
@@ -113,8 +121,9 @@ double safe_step(const std::vector<double>& r, const Positions& dx) {
   double step = 1;
   for (std::ptrdiff_t v = 0; v < dx.rows(); ++v) {
     const double moved = length(dx, v);
-    if (!std::isfinite(moved)) return 0;
-    if (moved > r[std::size_t(v)]) step = std::min(step, r[std::size_t(v)] / moved * (1 - 0x1p-48));
+    const double may = r[std::size_t(v)];
+    if (!std::isfinite(moved) || !(may >= 0)) return 0;
+    if (moved > may) step = std::min(step, below_quotient(may, moved));
   }
   return step;
 }

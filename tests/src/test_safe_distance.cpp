@@ -84,6 +84,41 @@ TEST_CASE("the safe step scales every vertex into its distance", "[unit]") {
   dx(0, 1) = NAN;
   CHECK(safe_step({10, 10}, dx) == 0);
   CHECK_THROWS_AS(safe_step({1}, dx), std::invalid_argument);
+  CHECK(safe_step({NAN, 10}, Eigen::MatrixXd::Zero(2, 3)) == 0);
+  CHECK(safe_step({-1, 10}, Eigen::MatrixXd::Ones(2, 3)) == 0);
+}
+
+TEST_CASE("the safe step is rounded down where it is subnormal", "[unit]") {
+  Eigen::MatrixXd dx = Eigen::MatrixXd::Zero(1, 3);
+  dx(0, 0) = 0x1p1014;
+  for (const double r : {0x1.8p-61, 0x1p-60, 0x1.8p-59, 0x1.4p-55, 0x1p-30}) {
+    const double step = safe_step({r}, dx);
+    CAPTURE(r, step);
+    CHECK(step * 0x1p1014 <= r);  // exactly: a power of two
+    if (r > 0x1p-50) CHECK(step > 0);
+  }
+}
+
+TEST_CASE("a step by gaps of subnormal share stays apart", "[unit]") {
+  // A vertex and a face that move towards each other by 2^1013 each, and next to no gap between them.
+  Eigen::MatrixXd x_t0(4, 3), x_t1;
+  const double gap = 0x1.e4p-60;
+  x_t0 << 0x1p-62, 0x1p-62, gap, -0x1p-60, -0x1p-60, 0, 0x1p-60, -0x1p-60, 0, 0, 0x1p-60, 0;
+  x_t1 = x_t0;
+  x_t1(0, 2) -= 0x1p1013;
+  x_t1.bottomRows(3).col(2).array() += 0x1p1013;
+  Eigen::MatrixXi faces(1, 3);
+  faces << 1, 2, 3;
+  const Mesh mesh(x_t0, faces);
+  Options none;
+  none.time_limit = 0;
+  for (const double share : {0.0, 0.2, 0.9}) {
+    const ClosePairs close = close_pairs(mesh, x_t0, 0x1p-58);
+    REQUIRE(close.size() > 0);
+    const StepResult r = compute_cfl_stepsize(mesh, x_t0, x_t1, close, none, share);
+    CAPTURE(share, r.step);
+    CHECK(r.step * 0x1p1014 < gap);
+  }
 }
 
 TEST_CASE("the CFL step is never later than the exact first contact", "[oracle][property]") {
