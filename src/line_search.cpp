@@ -94,8 +94,9 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
   check_gap_share(options.gap_share);
   const std::vector<double> x_t1 = in_float_environment(sum, x_t0, dx);
   Impl& h = *impl_;
-  for (std::ptrdiff_t i = 0; options.d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
   in_arena(options.threads, [&] {
+    // A host that takes subnormal numbers for 0 is not to decide this.
+    for (std::ptrdiff_t i = 0; options.d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
     const Positions end(x_t1.data(), x_t0.rows());
     Budget budget(h.options);
     h.setup = std::make_unique<StepSetup>(h.mesh, x_t0, end, h.options, StepSetup::Use::stored_step,
@@ -152,7 +153,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
 ClosePairs LineSearch::close_pairs(double step) const {
   in_float_environment(check_step, "step", step);
   const Impl& h = impl();
-  if (h.options.d_hat == 0)
+  if (in_float_environment([&] { return h.options.d_hat == 0; }))
     throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
   ClosePairs r;
   r.d_hat = h.options.d_hat;

@@ -1,5 +1,6 @@
 #include "onset/result.hpp"
 
+#include "base/float_environment.hpp"
 #include "onset/active_set.hpp"
 
 namespace onset {
@@ -77,6 +78,7 @@ const char* to_string(Certainty certainty) noexcept {
 }
 
 const Contact* ActiveSet::earliest() const noexcept {
+  const FloatEnvironment environment;
   const Contact* best = nullptr;
   for (const Contact& contact : contacts)
     if (best == nullptr || contact.toi < best->toi) best = &contact;
