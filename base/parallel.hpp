@@ -16,6 +16,7 @@ namespace backend {
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> f);
 void run_in_arena(int threads, FunctionRef<> f);
 void run_isolated(FunctionRef<> f);
+void run_for_host(FunctionRef<> f);
 }  // namespace backend
 
 // f(first, last) over [0, count) in chunks of about `grain`, in the current arena. An exception of f leaves
@@ -42,11 +43,19 @@ void in_arena(int threads, F&& f) {
   });
 }
 
-// f(), which may run parallel work of the host's: a thread that waits for it takes on no other work of this
-// call, whose tasks would else pile up on its stack.
+// f(), with parallel work: a thread that waits for it takes on no other work of the arena.
 template <class F>
 void isolated(F&& f) {
   backend::run_isolated(FunctionRef<>(f));
+}
+
+// f() is the host's: it may run parallel work, during which this thread takes on no other work of this call,
+// whose tasks would else pile up on its stack. What it does to the task group that it finds itself in, or to
+// the floating-point environment, ends with it.
+template <class F>
+void call_host(F&& f) {
+  const auto alone = [&] { in_float_environment(f); };
+  backend::run_for_host(FunctionRef<>(alone));
 }
 
 // Returns how many threads the current arena may use.

@@ -55,12 +55,24 @@ class LentArena {
 namespace backend {
 
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> f) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                    [=](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); });
+  // In a task group of the host's that is cancelled, chunks would be left out without a word.
+  tbb::task_group_context own(tbb::task_group_context::isolated);
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, grain),
+      [=](const tbb::blocked_range<std::size_t>& r) { f(r.begin(), r.end()); }, own);
 }
 
 void run_isolated(FunctionRef<> f) {
   tbb::this_task_arena::isolate([=] { f(); });
+}
+
+// What the host cancels in there is a group of one task.
+void run_for_host(FunctionRef<> f) {
+  tbb::this_task_arena::isolate([=] {
+    tbb::task_group_context own(tbb::task_group_context::isolated);
+    tbb::parallel_for(
+        0, 1, [=](int) { f(); }, own);
+  });
 }
 
 void run_in_arena(int threads, FunctionRef<> f) {

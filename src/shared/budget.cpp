@@ -74,7 +74,7 @@ void Budget::report() {
     ~Release() { flag.clear(); }
   } release{reporting_};
   bool goes_on = true;
-  isolated([&] { goes_on = options_.progress(done()); });
+  call_host([&] { goes_on = options_.progress(done()); });
   if (!goes_on) interrupt(Outcome::cancelled);
   reported_at_.store(clock_.seconds(), std::memory_order_relaxed);
 }

@@ -86,6 +86,50 @@ TEST_CASE("no floating-point environment of the host changes a byte of any call"
     }
 }
 
+TEST_CASE("a callback's floating-point environment ends with it", "[determinism][tbb]") {
+  const std::vector<Subject> subjects = small_subjects();
+  for (const Call& call : every_call()) {
+    if (!call.reports) continue;
+    for (const Mode& mode : kModes) {
+      const Subject& s = subjects[std::size_t(&mode - kModes) % subjects.size()];
+      Options plain, changes;
+      changes.progress = [&](double) {
+        _mm_setcsr(mode.mxcsr);
+        return true;
+      };
+      CAPTURE(call.name, s.name, mode.name);
+      CHECK(call(s.mesh(), s, changes) == call(s.mesh(), s, plain));
+      CHECK((_mm_getcsr() & ~0x3fu) == kClean);  // but for flags of this test's own
+    }
+  }
+}
+
+TEST_CASE("a subnormal d-hat is one for hosts that have no subnormal numbers", "[determinism][tbb]") {
+  const Subject s = std::move(small_subjects().front());
+  const Mesh mesh = s.mesh();
+  LineSearchOptions options;
+  options.d_hat = 0x1p-1040;
+  const auto clean = LineSearch(mesh, s.scene.x_t0, s.dx, options).close_pairs(0);
+  for (const Mode& mode : kModes) {
+    LineSearch search;
+    std::size_t inside = clean.size() + 1;
+    ActiveSet set;
+    set.contacts.resize(2);
+    set.contacts[0].toi = 0x1p-1030, set.contacts[1].toi = 0x1p-1040;
+    const Contact* earliest = nullptr;
+    {
+      const Host host(mode.mxcsr);
+      search = LineSearch(mesh, s.scene.x_t0, s.dx, options);
+      inside = search.close_pairs(0).size();
+      earliest = set.earliest();
+    }
+    CAPTURE(mode.name);
+    CHECK(inside == clean.size());
+    CHECK(search.close_pairs(0).size() == clean.size());
+    CHECK(earliest == &set.contacts[1]);
+  }
+}
+
 // In a run of the tests each call has one mode with each number of threads; ONSET_FUZZ=3 asks for all of
 // them.
 TEST_CASE("recorded steps mind no floating-point environment either", "[determinism][tbb][data]") {
