@@ -34,7 +34,8 @@ ONSET_API std::vector<double> safe_distances(const Mesh& mesh, const Positions& 
 // Computes the largest s in [0, 1] with s |dx_i| <= r_i for all i, rounded down.
 //
 // Guarantee: by the lemma a step of s dx needs no collision check. What is left for the next step without one
-// is r_i - s |dx_i|. 0 where dx is not finite.
+// is r_i - s |dx_i|. 0 where dx is not finite, or an r is not a
+// number >= 0.
 //
 // r: as safe_distances gives it, or what is left of it.
 // dx: #V x 3, model length, as many rows as r has values, else throws std::invalid_argument.
