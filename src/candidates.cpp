@@ -72,7 +72,12 @@ class CandidateList {
     if (use_.list && (room_ -= std::int64_t(out.size() - before)) < 0) out.clear();
     if (out.size() >= Parts<IdRow>::kPart) parts_[std::size_t(kind)].add(out);
     if (use_.visitor == nullptr) return;
-    if (!out.empty()) call_host([&] { (*use_.visitor)(kind, out.data(), out.size()); });
+    try {
+      if (!out.empty()) call_host([&] { (*use_.visitor)(kind, out.data(), out.size()); });
+    } catch (...) {
+      budget_.abandon();
+      throw;
+    }
     out.clear();
   }
 

@@ -98,11 +98,15 @@ void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& 
   if (rest.broad) {
     auto all = find_near(mesh, rest, options, most(options, sizeof(NearPair)), budget);
     too_many = too_many || all.too_many;
-    for (const NearPair& p : all.found)
-      if (p.touches)
+    std::size_t touching = 0;
+    for (const NearPair& p : all.found) touching += p.touches;
+    report.touching.reserve(touching), report.within_separation.reserve(all.found.size() - touching);
+    each_unless(budget.interruption(), 0, all.found.size(), [&](std::size_t i) {
+      if (const NearPair& p = all.found[i]; p.touches)
         report.touching.push_back(p.pair);
       else
         report.within_separation.push_back(p.pair);
+    });
   }
   report.outcome = rest.outcome(budget);
   if (too_many) {

@@ -74,7 +74,12 @@ void Budget::report() {
     ~Release() { flag.clear(); }
   } release{reporting_};
   bool goes_on = true;
-  call_host([&] { goes_on = options_.progress(done()); });
+  try {
+    call_host([&] { goes_on = options_.progress(done()); });
+  } catch (...) {
+    abandon();
+    throw;
+  }
   if (!goes_on) interrupt(Outcome::cancelled);
   reported_at_.store(clock_.seconds(), std::memory_order_relaxed);
 }

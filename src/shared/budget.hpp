@@ -12,6 +12,10 @@
 
 namespace onset {
 
+// Where time or the caller can end a call, no more pairs than this are decided between two looks: a hard one
+// takes tens of microseconds.
+inline constexpr std::size_t kWatchedPairs = 16;
+
 // The budget of one call. Any thread may ask it, which calls the caller's progress when that is due: not
 // while a lock is held.
 class Budget {
@@ -35,6 +39,9 @@ class Budget {
   // Ends the call where its checks are spent. Called between waves of work only, so that the answer does not
   // depend on the order of work.
   void look_at_checks();
+
+  // Ends the call, which answers with an exception of the caller's: other threads need not finish.
+  void abandon() { interrupt(Outcome::cancelled); }
 
   bool counts_checks() const;
   // Says whether time or the caller can end the call: pairs then come a few at a time.

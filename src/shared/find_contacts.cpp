@@ -72,9 +72,10 @@ bool is_candidate(const void* setup, PairKind kind, IdPair pair) {
 
 }  // namespace
 
-// A row of the set is 124 bytes; finding a contact takes 64 in arrays that grow to twice that, and sorting it
-// 32 and 64 more.
+// A contact is held as what was found of it, twice while it is put in order, and as a row of the set.
 constexpr std::int64_t kBytesAContact = 256;
+static_assert(2 * sizeof(FoundPair) <= kBytesAContact &&
+              sizeof(FoundPair) + sizeof(Contact) <= kBytesAContact);
 
 std::size_t most_contacts(const Options& options) {
   return std::size_t(options.memory_limit / kBytesAContact);

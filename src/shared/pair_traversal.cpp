@@ -18,9 +18,7 @@ constexpr std::size_t kBlocksATask = 16;
 // With a budget of checks, work comes in waves of so many blocks. What a wave does depends only on those
 // before it, so that it is the same for any number of threads.
 constexpr std::size_t kFirstWave = 16, kLargestWave = 1024;
-// So many pairs pass between two looks at a budget that time or the caller can end; a single one where so
-// many took longer than kSlowSeconds.
-constexpr std::size_t kWatchedPairs = 16;
+// A single pair passes between two looks at a budget where kWatchedPairs took longer than this.
 constexpr double kSlowSeconds = 0.002;
 // Where all are kept, a task hands over its results when it holds so many.
 constexpr std::size_t kHeldByATask = 1024;

@@ -30,7 +30,9 @@ void visit_pairs(const PairSource& source, PairKind kind, std::size_t blocks_a_t
     static bool asked(void* context) { return static_cast<const Task*>(context)->ended(); }
     static void consume(void* context, const IdPair* pairs, std::size_t count) {
       auto& task = *static_cast<Task*>(context);
-      if (!task.ended()) task.visit(task.state, pairs, count);
+      const std::size_t most = task.budget.is_watched() ? kWatchedPairs : count;
+      for (std::size_t n; count > 0 && !task.ended(); pairs += n, count -= n)
+        task.visit(task.state, pairs, n = std::min(most, count));
     }
   };
   std::mutex mutex;
@@ -102,6 +104,9 @@ Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kin
     const IdPair ids = ids_of(f);
     return std::uint64_t(ids.a) << 32 | std::uint64_t(ids.b);
   };
+  std::size_t total = 0;
+  for (const Parts<Found>& of_kind : parts) total += of_kind.size();
+  all.found.reserve(total);
   for (const PairKind kind : kinds) sort_within(budget, parts[std::size_t(kind)], key, all.found);
   return all;
 }

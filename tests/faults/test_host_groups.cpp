@@ -1,5 +1,5 @@
-// A host that cancels its own work, or one of whose tasks throws, cancels nothing of the library's: answers are
-// those of a clean process, and so is what a mesh keeps for later calls.
+// A host that cancels its own work, or one of whose tasks throws, cancels nothing of the library's: answers
+// are those of a clean process, and so is what a mesh keeps for later calls.
 #include <tbb/parallel_for.h>
 #include <tbb/task.h>
 #include <tbb/task_group.h>
@@ -65,17 +65,16 @@ TEST_CASE("a call beside one that throws answers as ever", "[faults]") {
   for (int round = 0; round < 50; ++round) {
     const Mesh mesh = s.mesh();
     double inside = clean;
-    CHECK_THROWS_AS(
-        tbb::parallel_for(
-            0, 2,
-            [&](int i) {
-              if (i == 0)
-                inside = compute_collision_free_stepsize(mesh, s.scene.x_t0, s.scene.x_t1).step;
-              else
-                compute_collision_free_stepsize(mesh, too_few, too_few);
-            },
-            tbb::simple_partitioner()),
-        std::invalid_argument);
+    CHECK_THROWS_AS(tbb::parallel_for(
+                        0, 2,
+                        [&](int i) {
+                          if (i == 0)
+                            inside = compute_collision_free_stepsize(mesh, s.scene.x_t0, s.scene.x_t1).step;
+                          else
+                            compute_collision_free_stepsize(mesh, too_few, too_few);
+                        },
+                        tbb::simple_partitioner()),
+                    std::invalid_argument);
     CHECK(inside == clean);
     CHECK(compute_collision_free_stepsize(mesh, s.scene.x_t0, s.scene.x_t1).step == clean);
   }

@@ -1,10 +1,12 @@
 // Every call ends wherever time or the caller ends it, looks often enough at both, and goes back to no work
 // that is thrown away. A clock that counts its looks stands for time, so that every run is the same.
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <onset/onset.hpp>
 #include <string>
 
+#include "base/clock.hpp"
 #include "src/shared/budget.hpp"
 #include "src/shared/found_pairs.hpp"
 #include "src/shared/pair_list.hpp"
@@ -98,15 +100,19 @@ const std::vector<Call>& calls() {
       {"check",
        [](const Crowd& c, const Options& o) {
          const StartReport r = check(c.mesh, c.scene.x_t0, o);
-         return Answer{r.outcome, 0};
+         const std::size_t rows = r.intersections.size() + r.touching.size() + r.within_separation.size();
+         return Answer{r.outcome, r.outcome == Outcome::free ? double(rows) : 0};
        }},
       {"intersections",
        [](const Crowd& c, const Options& o) {
-         return Answer{intersections(c.mesh, c.scene.x_t0, o).outcome, 0};
+         const Intersections r = intersections(c.mesh, c.scene.x_t0, o);
+         return Answer{r.outcome, r.outcome == Outcome::free ? double(r.size()) : 0};
        }},
       {"compute_cfl_stepsize",
        [](const Crowd& c, const Options& o) {
-         return Answer{compute_cfl_stepsize(c.mesh, c.scene.x_t0, c.scene.x_t1, c.close, o).outcome, 0};
+         const StepResult r = compute_cfl_stepsize(c.mesh, c.scene.x_t0, c.scene.x_t1, c.close, o);
+         return Answer{r.outcome,
+                       r.outcome == Outcome::out_of_time || r.outcome == Outcome::cancelled ? 0 : r.step};
        }},
   };
   return all;
@@ -142,19 +148,22 @@ TEST_CASE("every call ends at whichever look its time is over, and the next one 
       REQUIRE(whole.outcome != Outcome::out_of_time);
       REQUIRE(looks > 20);
       bool ended = true;
+      int tried = 0;
       for (std::int64_t n = 0; ended && n < 2 * looks; n += 1 + n / 6) {
         CAPTURE(n, looks);
-        crowd.mesh.release_memory();
+        const bool on_what_is_kept = ++tried % 2 == 0;
+        if (!on_what_is_kept) crowd.mesh.release_memory();
         o.time_limit = double(n);
         const Answer cut = call.run(crowd, o);
         ended = cut.outcome == Outcome::out_of_time;
         if (ended) CHECK(cut.amount == 0);
         // Half of its looks end it, and whatever they are for, a few that set clocks going.
-        if (n < looks / 2) CHECK(ended);
+        if (n < looks / 2 && !on_what_is_kept) CHECK(ended);
+        // What a call leaves that was cut off, is good for the next one.
+        o.time_limit = HUGE_VAL;
+        if (tried % 4 < 2) CHECK(same(call.run(crowd, o), whole));
       }
       CHECK_FALSE(ended);
-      o.time_limit = HUGE_VAL;
-      CHECK(same(call.run(crowd, o), whole));
     }
 }
 
@@ -328,4 +337,46 @@ TEST_CASE("progress is told where it was not for ten milliseconds, and time is l
   checks.look_at_checks();
   CHECK((checks.spent() && !checks.interrupted()));
   CHECK(checks.stop().asked == nullptr);
+}
+
+TEST_CASE("no thread goes on, nor reports, once a callback has thrown", "[unit]") {
+  const Crowd crowd(150);
+  struct Enough {};
+  for (const int threads : {1, 4}) {
+    Options o;
+    o.threads = threads;
+    for (const Call& call : calls()) {
+      std::atomic<bool> threw{false};
+      std::atomic<int> late{0};
+      o.progress = [&](double share) -> bool {
+        late += threw;
+        if (share == 0) return true;
+        threw = true;
+        throw Enough();
+      };
+      CAPTURE(call.name, threads);
+      CHECK_THROWS_AS(call.run(crowd, o), Enough);
+      CHECK(late == 0);
+    }
+    o.progress = nullptr;
+    if (threads == 1) continue;
+    // The first visitor throws while another thread is in the middle of its work, of which it does no more.
+    const Crowd many(600);
+    o.broad_phase = BroadPhaseMethod::brute;
+    for (int round = 0; round < 5; ++round) {
+      std::atomic<bool> threw{false};
+      std::atomic<int> entered{0}, late{0};
+      const Clock clock;
+      const auto visit = [&](PairKind, const std::array<int, 2>*, std::size_t) {
+        late += threw;
+        if (entered++ > 0) return;
+        while (entered < 2 && clock.seconds() < 1) {
+        }
+        threw = true;
+        throw Enough();
+      };
+      CHECK_THROWS_AS(visit_candidates(many.mesh, many.scene.x_t0, many.scene.x_t1, visit, o), Enough);
+      CHECK(late <= threads);
+    }
+  }
 }
