@@ -21,7 +21,6 @@ case $much in
   *x) limit="-runs=${much%x}" ;;
   *) limit="-max_total_time=$(awk -v hours="$much" -v targets=$# 'BEGIN { printf "%d", hours * 3600 / targets }')" ;;
 esac
-# A sanitizer needs several times the memory that a file may take; one allocation of more than that is an error.
 export ASAN_OPTIONS="detect_stack_use_after_return=1:malloc_context_size=8${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
 export UBSAN_OPTIONS=print_stacktrace=1
 status=0
@@ -32,6 +31,7 @@ for target; do
   most=600
   [ "$target" != readers ] || most=2000
   code=0
+  # A file may take that much at once; a sanitizer needs several times as much in all.
   build/fuzz/tests/fuzz/libfuzzer_"$target" "$limit" -max_len=$most -timeout=60 -malloc_limit_mb=64 -rss_limit_mb=4096 \
     -print_final_stats=1 -verbosity=0 -artifact_prefix="$found/" "$corpus" >"$log" 2>&1 || code=$?
   runs=$(awk '/number_of_executed_units/ { print $2 }' "$log")

@@ -58,7 +58,8 @@ class ThreadPool {
   // The one of this process, never destroyed: calls may be made until it ends.
   static ThreadPool& instance();
 
-  // Invites helpers to a loop, and makes threads if too few are idle. Where none can be had, nobody comes.
+  // Invites helpers to a loop, and makes threads where the process has fewer than this loop may use: loops at
+  // the same time share them. Where none can be had, nobody comes.
   void open(Loop& loop) noexcept;
   // Lets nobody in any more, and waits for those inside.
   void close(Loop& loop) noexcept;
