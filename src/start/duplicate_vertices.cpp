@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -21,16 +22,20 @@ struct Placed {
 };
 constexpr int kPlaceBits = 33;  // three digits of the sort
 
-// Mixes the bits of the coordinates, -0 being 0, as Steele, Lea, Flood, "Fast splittable pseudorandom number
-// generators" (OOPSLA 2014) mix theirs.
-std::uint64_t number_of_place(const Positions& x, int v) {
+// The same for equal coordinates, -0 and 0 among them, and for no others.
+std::uint64_t bits_of(double coordinate) {
   constexpr std::uint64_t kMinusZero = std::uint64_t(1) << 63;
+  std::uint64_t bits;
+  std::memcpy(&bits, &coordinate, sizeof bits);
+  return bits == kMinusZero ? 0 : bits;
+}
+
+// Mixes the bits of the coordinates as Steele, Lea, Flood, "Fast splittable pseudorandom number generators"
+// (OOPSLA 2014) mix theirs.
+std::uint64_t number_of_place(const Positions& x, int v) {
   std::uint64_t h = 0;
   for (int a = 0; a < 3; ++a) {
-    const double coordinate = x(v, a);
-    std::uint64_t bits;
-    std::memcpy(&bits, &coordinate, sizeof bits);
-    h = (h ^ (bits == kMinusZero ? 0 : bits)) + 0x9e3779b97f4a7c15u;
+    h = (h ^ bits_of(x(v, a))) + 0x9e3779b97f4a7c15u;
     h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
     h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
     h ^= h >> 31;
@@ -38,17 +43,51 @@ std::uint64_t number_of_place(const Positions& x, int v) {
   return h >> (64 - kPlaceBits);
 }
 
-// Fills first[v] with the first vertex at the place of v, for vertices of one number in ascending order.
-void find_first(const Positions& x, const Placed* begin, const Placed* end, std::vector<int>& first) {
-  std::vector<int> firsts;
-  for (const Placed* p = begin; p != end; ++p) {
-    const auto is_here = [&](int v) {
-      return x(v, 0) == x(p->vertex, 0) && x(v, 1) == x(p->vertex, 1) && x(v, 2) == x(p->vertex, 2);
-    };
-    auto here = std::find_if(firsts.begin(), firsts.end(), is_here);
-    if (here == firsts.end()) here = firsts.insert(here, p->vertex);
-    first[std::size_t(p->vertex)] = *here;
+std::uint64_t key(const Placed& p) { return p.place; }
+
+bool at_one_place(const Positions& x, int v, int w) {
+  return x(v, 0) == x(w, 0) && x(v, 1) == x(w, 1) && x(v, 2) == x(w, 2);
+}
+
+enum class Search { done, stopped, crowded };
+
+// Fills first[v] with the first vertex at the place of v, by the numbers of places. It is crowded where a
+// number has more places than chance gives it: somebody chose the coordinates.
+Search find_by_numbers(const Positions& x, std::vector<Placed>& order, std::vector<int>& first,
+                       const Stop& stop) {
+  constexpr int kPlaces = 8;
+  const auto place = [&](std::size_t v) { order[v] = {number_of_place(x, int(v)), int(v)}; };
+  if (!each_unless(stop, 0, order.size(), place) || !radix_sort(order, key, stop)) return Search::stopped;
+  std::array<int, kPlaces> firsts;  // of the places of one number
+  int places = 0;
+  bool crowded = false;
+  const auto find = [&](std::size_t i) {
+    if (i > 0 && order[i - 1].place != order[i].place) places = 0;
+    const int v = order[i].vertex;
+    int here = 0;
+    while (here < places && !at_one_place(x, firsts[std::size_t(here)], v)) ++here;
+    crowded = crowded || here == kPlaces;
+    if (crowded) return;
+    if (here == places) firsts[std::size_t(places++)] = v;
+    first[std::size_t(v)] = firsts[std::size_t(here)];
+  };
+  if (!each_unless(stop, 0, order.size(), find)) return Search::stopped;
+  return crowded ? Search::crowded : Search::done;
+}
+
+// The same by the coordinates themselves, in six times as many passes whatever they are. Returns false where
+// it was stopped.
+bool find_by_coordinates(const Positions& x, std::vector<Placed>& order, std::vector<int>& first,
+                         const Stop& stop) {
+  if (!each_unless(stop, 0, order.size(), [&](std::size_t v) { order[v].vertex = int(v); })) return false;
+  for (int a = 0; a < 3; ++a) {
+    const auto place = [&](std::size_t i) { order[i].place = bits_of(x(order[i].vertex, a)); };
+    if (!each_unless(stop, 0, order.size(), place) || !radix_sort(order, key, stop)) return false;
   }
+  return each_unless(stop, 0, order.size(), [&](std::size_t i) {
+    const int v = order[i].vertex, before = i > 0 ? order[i - 1].vertex : -1;
+    first[std::size_t(v)] = before >= 0 && at_one_place(x, before, v) ? first[std::size_t(before)] : v;
+  });
 }
 
 }  // namespace
@@ -56,19 +95,10 @@ void find_first(const Positions& x, const Placed* begin, const Placed* end, std:
 std::vector<std::vector<int>> shared_places(const Positions& x, const Stop& stop) {
   const std::size_t count = std::size_t(x.rows());
   std::vector<Placed> order(count);
-  const auto place = [&](std::size_t v) { order[v] = {number_of_place(x, int(v)), int(v)}; };
-  if (!each_unless(stop, 0, count, place)) return {};
-  if (!radix_sort(
-          order, [](const Placed& p) { return p.place; }, stop))
-    return {};
   std::vector<int> first(count), row(count, -1);
-  std::size_t begin = 0;
-  const auto end_run = [&](std::size_t last) {  // at the end of each run of one number
-    if (last + 1 < count && order[last + 1].place == order[last].place) return;
-    find_first(x, &order[begin], &order[last] + 1, first);
-    begin = last + 1;
-  };
-  if (!each_unless(stop, 0, count, end_run)) return {};
+  const Search search = find_by_numbers(x, order, first, stop);
+  if (search == Search::stopped) return {};
+  if (search == Search::crowded && !find_by_coordinates(x, order, first, stop)) return {};
   std::vector<char> is_shared(count);
   const auto share = [&](std::size_t v) {
     if (first[v] != int(v)) is_shared[std::size_t(first[v])] = 1;

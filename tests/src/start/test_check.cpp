@@ -190,25 +190,6 @@ TEST_CASE("all copies at one place count as one vertex, however many", "[unit]")
   CHECK(check(mesh, x).clean());
 }
 
-TEST_CASE("vertices at one place are found by their coordinates", "[property]") {
-  Random random(92);
-  for (int round = 0; round < 30; ++round) {
-    const int size = 1 + round % 3;
-    Eigen::MatrixXd x(40, 3);
-    for (Eigen::Index i = 0; i < x.size(); ++i)
-      x.data()[i] = scenes::integer(random, -size, size) * (scenes::coin(random) ? 1.0 : -1.0) * 0x1p-1074;
-    std::vector<std::array<int, 2>> expected;
-    for (int v = 0; v < 40; ++v)
-      for (int w = v + 1; w < 40; ++w)
-        if (x.row(v) == x.row(w)) expected.push_back({v, w});
-    CHECK(duplicate_vertices(x) == expected);
-  }
-  Eigen::MatrixXd bad = Eigen::MatrixXd::Zero(4, 3);
-  bad(2, 1) = NAN;
-  CHECK_THROWS_WITH(duplicate_vertices(bad), Catch::Contains("row 2"));
-  CHECK(duplicate_vertices(Eigen::MatrixXd(0, 3)).empty());
-}
-
 TEST_CASE("a pierced start, faces without area and vertices of nothing are named, with the call to make",
           "[unit]") {
   Eigen::MatrixXd x(8, 3);
