@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -67,6 +68,43 @@ void forget(const std::string& path) {
   paths.erase(std::remove(paths.begin(), paths.end(), path), paths.end());
 }
 
+// Where an unfinished file goes, and the name that what stands there has meanwhile.
+struct Place {
+  const std::string &unfinished, &path;
+  std::string kept;
+  bool is_kept = false;
+};
+
+// Gives what stands there another name, or moves it there where it may have no two; nothing may stand there.
+bool keep(Place& place) {
+  place.is_kept = link(place.path.c_str(), place.kept.c_str()) == 0;
+  if (place.is_kept || errno == ENOENT) return true;
+  struct stat file;
+  if (lstat(place.path.c_str(), &file) != 0) return errno == ENOENT;
+  if (S_ISDIR(file.st_mode)) errno = EISDIR;
+  place.is_kept = !S_ISDIR(file.st_mode) && std::rename(place.path.c_str(), place.kept.c_str()) == 0;
+  return place.is_kept;
+}
+
+void give_back(const Place& place) {
+  if (!place.is_kept) {
+    std::rename(place.path.c_str(), place.unfinished.c_str());
+  } else {
+    std::rename(place.kept.c_str(), place.path.c_str());
+    unlink(place.kept.c_str());  // which is still there where both names were of one file
+  }
+}
+
+// Returns false, with all as it was and errno set, where it cannot be taken.
+bool take(Place& place) {
+  if (!keep(place)) return false;
+  if (std::rename(place.unfinished.c_str(), place.path.c_str()) == 0) return true;
+  const int error = errno;
+  if (place.is_kept) give_back(place);
+  errno = error;
+  return false;
+}
+
 void open_standard_files() {
   for (int descriptor = 0; descriptor <= 2; ++descriptor)
     if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)  // the lowest free one is what open() takes
@@ -112,12 +150,22 @@ void discard_unfinished(const std::string& path) {
 }
 
 std::size_t publish_unfinished(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::vector<Place> places;
+  for (const auto& [unfinished, path] : files) places.push_back({unfinished, path, unfinished + ".old"});
   const Work work;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (std::rename(files[i].first.c_str(), files[i].second.c_str()) != 0) return i;
-    forget(files[i].first);
+  std::size_t taken = 0;
+  while (taken < places.size() && take(places[taken])) ++taken;
+  const int error = errno;
+  if (taken < places.size()) {
+    for (std::size_t i = taken; i-- > 0;) give_back(places[i]);
+  } else {
+    for (const Place& place : places) {
+      if (place.is_kept) unlink(place.kept.c_str());
+      forget(place.unfinished);
+    }
   }
-  return files.size();
+  errno = error;
+  return taken;
 }
 
 }  // namespace app

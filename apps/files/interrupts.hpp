@@ -22,8 +22,9 @@ int create_unfinished(const std::string& folder, std::string& path);
 // Removes it.
 void discard_unfinished(const std::string& path);
 
-// Renames the first of each pair to the second, whose place it takes; no signal comes in between. Returns how
-// many it renamed: all, or errno says why the next one was not.
+// Renames the first of each pair to the second, whose place it takes, all of them or none; no signal comes in
+// between. Returns how many there are, or, where one cannot be renamed, its index, with errno set: what stood
+// at the others' places is there again.
 std::size_t publish_unfinished(const std::vector<std::pair<std::string, std::string>>& files);
 
 }  // namespace app

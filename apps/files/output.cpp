@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdarg>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -55,6 +56,34 @@ std::string behind_links(const std::string& name) {
   return path.string();
 }
 
+#ifdef STATX_ATTR_MOUNT_ROOT
+std::uint64_t attributes(const std::string& path) {
+  struct statx file;
+  return statx(AT_FDCWD, path.c_str(), 0, STATX_TYPE, &file) == 0 ? file.stx_attributes : 0;
+}
+#endif
+
+// Whether another file may be renamed to its place. What is only known then costs the run, no file.
+void check_replaceable(const OutputTarget& target) {
+#ifdef STATX_ATTR_MOUNT_ROOT
+  constexpr std::uint64_t kFixed = STATX_ATTR_IMMUTABLE | STATX_ATTR_APPEND;
+  if (attributes(folder_of(target.path)) & kFixed) fail_to_write(target.name, EPERM);
+  if (!target.now) return;
+  const std::uint64_t file = attributes(target.path);
+  if (file & STATX_ATTR_MOUNT_ROOT)
+    throw InputError(
+        target.name +
+        ": cannot be written: it is a mount point, and no complete file can take its place; mount "
+        "its folder, or write to - and redirect that");
+  if (file & kFixed) fail_to_write(target.name, EPERM);
+#endif
+  // In a folder such as /tmp, where everybody renames what is his own.
+  const uid_t user = geteuid();
+  if (target.now && (target.folder->st_mode & S_ISVTX) && user != 0 && target.now->st_uid != user &&
+      target.folder->st_uid != user)
+    fail_to_write(target.name, EPERM);
+}
+
 void check_permissions(const OutputTarget& target) {
   const auto may = [&](const std::string& path, int how) {
     if (faccessat(AT_FDCWD, path.c_str(), how, AT_EACCESS) != 0) fail_to_write(target.name, errno);
@@ -65,6 +94,7 @@ void check_permissions(const OutputTarget& target) {
   if (!target.folder) may(folder_of(target.path), F_OK);
   if (!S_ISDIR(target.folder->st_mode)) fail_to_write(target.name, ENOTDIR);
   may(folder_of(target.path), W_OK | X_OK);
+  check_replaceable(target);
 }
 
 // As the file that it takes the place of; what the system does not allow is left.

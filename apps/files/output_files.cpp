@@ -59,11 +59,9 @@ void OutputFiles::publish() {
     unpublished.push_back(entry.file.get());
     names.emplace_back(entry.file->unpublished(), entry.file->target().path);
   }
-  const std::size_t done = publish_unfinished(names);
-  const int error = errno;
-  for (std::size_t i = 0; i < done; ++i) unpublished[i]->published();
-  if (done < names.size())
-    throw InputError(unpublished[done]->target().name + ": cannot be written: " + std::strerror(error));
+  if (const std::size_t done = publish_unfinished(names); done < names.size())
+    throw InputError(unpublished[done]->target().name + ": cannot be written: " + std::strerror(errno));
+  for (Output* file : unpublished) file->published();
   for (Entry& entry : entries_)
     if (entry.is_open) entry.file->flush();
 }

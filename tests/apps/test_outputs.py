@@ -144,6 +144,105 @@ class Failures(OutputTest):
         self.assertEqual((self.folder / "out2.csv").read_text(), (self.folder / "out.csv").read_text())
 
 
+class Places(OutputTest):
+    """A place that cannot be taken when all is written: the others are as they were, too."""
+
+    FILES = 600  # some seconds
+
+    def publish_late(self, change, *outputs, **options):
+        """A run that is stopped while it writes; `change` is made, and it goes on and fails."""
+        self.write("vf.csv", rows(vertex_face(1, -1), 1) * 200)
+        run = self.start("queries", *["vf.csv"] * self.FILES, "--certainty", "exact", *outputs, stdout=subprocess.PIPE, **options)
+        self.wait_for(lambda: self.unfinished())
+        run.send_signal(signal.SIGSTOP)
+        change()
+        run.send_signal(signal.SIGCONT)
+        out, error = run.communicate(timeout=60)
+        self.assertEqual((run.returncode, out, error.count(b"\n")), (BAD, b"", 1), error)
+        return error
+
+    def test_all_is_put_back(self):
+        for last, old in itertools.product(["out.csv", "out.json"], [True, False]):
+            with self.subTest(last=last, old=old):
+                first = "out.json" if last == "out.csv" else "out.csv"
+                path, place = self.folder / first, self.folder / last
+                before = path.stat() if old and self.write(first, OLD) else None
+                error = self.publish_late(place.mkdir, "--csv", "out.csv", "--json", "out.json")
+                self.assertIn(last.encode() + b": cannot be written: Is a directory", error)
+                self.assertEqual((self.unfinished(), os.listdir(place)), ([], []))
+                place.rmdir()
+                if not old:
+                    self.assertFalse(path.exists())
+                else:
+                    after = path.stat()
+                    self.assertEqual((path.read_text(), after.st_ino, after.st_nlink), (OLD, before.st_ino, 1))
+                    path.unlink()
+
+    def as_nobody(self):
+        if os.geteuid() != 0:
+            self.skipTest("only root can become another user")
+        become = lambda: os.setuid(65534)
+        self.folder.chmod(0o777)
+        if subprocess.run(["test", "-x", BINARY], preexec_fn=become).returncode:
+            self.skipTest("another user cannot run the program here")
+        return become
+
+    def test_files_that_cannot_be_linked(self):
+        """The system lets nobody make another name of a file that he can write, and not read."""
+        become = self.as_nobody()
+        for name in ["out.csv", "out.json"]:
+            with self.subTest(name):
+                other = "out.json" if name == "out.csv" else "out.csv"
+                path, place = self.write(name, OLD), self.folder / other
+                path.chmod(0o222)
+                before = path.stat().st_ino
+                self.publish_late(place.mkdir, "--csv", "out.csv", "--json", "out.json", preexec_fn=become)
+                self.assertEqual((path.read_text(), path.stat().st_ino, self.unfinished()), (OLD, before, []))
+                place.rmdir()
+                done = self.start("step", self.a, self.b, "--csv", "out.csv", "--json", "out.json", preexec_fn=become,
+                                  stdout=subprocess.DEVNULL)
+                self.assertEqual((done.communicate(timeout=60)[1], done.returncode), (b"", 0))
+                self.assertNotIn(OLD, [(self.folder / n).read_text() for n in ["out.csv", "out.json"]])
+                self.assertEqual(self.unfinished(), [])
+                path.unlink(), place.unlink()
+
+    def test_what_can_be_seen_is_seen_before_the_work(self):
+        """Files that are mount points, that the system keeps as they are, or that are others' in a folder such as /tmp."""
+
+        def refused(words, **options):
+            before = sorted(os.listdir(self.folder))
+            for first, second in [("kept", "out"), ("out", "kept")]:
+                run = self.start("queries", bad, "--json", first, "--csv", second, stdout=subprocess.PIPE, **options)
+                out, error = run.communicate(timeout=60)
+                self.assertEqual((run.returncode, out, error.count(b"\n")), (BAD, b"", 1))
+                for word in ["kept: cannot be written: ", *words]:
+                    self.assertIn(word.encode(), error)
+            self.assertEqual((kept.read_text(), sorted(os.listdir(self.folder))), (OLD, before))
+
+        kept, bad = self.write("kept", OLD), self.write("vf-bad.csv", "x\n")
+        tried = lambda *command: subprocess.run(command, cwd=self.folder, stderr=subprocess.DEVNULL).returncode == 0
+        with self.subTest("mount"):
+            self.write("outside", OLD)
+            if not tried("mount", "--bind", "outside", "kept"):
+                self.skipTest("only root may mount")
+            try:
+                refused(["mount point"])
+            finally:
+                self.assertTrue(tried("umount", "kept"))
+        for attribute in ["i", "a"]:
+            with self.subTest(attribute):
+                if not tried("chattr", "+" + attribute, "kept"):
+                    self.skipTest("this file system has no such attribute")
+                try:
+                    refused(["Operation not permitted"])
+                finally:
+                    self.assertTrue(tried("chattr", "-" + attribute, "kept"))
+        with self.subTest("sticky"):
+            become = self.as_nobody()
+            self.folder.chmod(0o1777), kept.chmod(0o666)
+            refused(["Operation not permitted"], preexec_fn=become)
+
+
 class Signals(OutputTest):
     ENDING = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT]
 
