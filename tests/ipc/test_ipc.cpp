@@ -154,6 +154,65 @@ TEST_CASE("a surface of a full mesh takes its vertices and gives its dofs back",
   }
 }
 
+TEST_CASE("maps and values whose shapes do not fit are refused by both numbers", "[unit]") {
+  const MatrixXd x = MatrixXd::Random(9, 3);
+  const MatrixXi faces = (MatrixXi(3, 3) << 0, 1, 2, 3, 4, 5, 6, 7, 8).finished();
+  const auto mesh_of = [&](Eigen::Index rows, Eigen::Index cols) {
+    Eigen::SparseMatrix<double> map(rows, cols);
+    map.insert(0, 0) = 1, map.insert(rows - 1, cols - 1) = 2;
+    return ipc::CollisionMesh(x, {}, faces, map);
+  };
+  for (const auto& [rows, cols] :
+       {std::pair(6, 30), {1, 9}, {10, 9}, {26, 27}, {28, 27}, {18, 18}, {27, 28}, {27, 2}})
+    CHECK_THROWS_WITH(mesh_of(rows, cols), Catch::Contains("displacement_map is " + std::to_string(rows) +
+                                                           " x " + std::to_string(cols)) &&
+                                               Catch::Contains("9 vertices"));
+  // Ten vertices have displacements, and no positions at rest that are known here.
+  for (const int dim : {1, 3}) {
+    const ipc::CollisionMesh mesh = mesh_of(9 * dim, 10 * dim);
+    CHECK((mesh.full_num_vertices() == 10 && mesh.full_ndof() == 30));
+    const MatrixXd moved = mesh.displace_vertices(MatrixXd::Ones(10, 3));
+    CHECK((moved.row(1) == x.row(1) && moved(0, 0) == x(0, 0) + 1 && moved(8, 2) == x(8, 2) + 2));
+    CHECK(mesh.to_full_dof(Eigen::VectorXd::Ones(27)).size() == 30);
+    for (const int rows : {9, 10})
+      CHECK_THROWS_WITH(mesh.vertices(MatrixXd::Zero(rows, 3)),
+                        Catch::Contains("from 10 vertices") && Catch::Contains("displace_vertices"));
+    for (const int rows : {0, 9, 11, 30})
+      CHECK_THROWS_WITH(mesh.displace_vertices(MatrixXd::Zero(rows, 3)),
+                        Catch::Contains(std::to_string(rows) + " x 3") && Catch::Contains("10 vertices"));
+    CHECK_THROWS_AS(mesh.map_displacements(MatrixXd::Zero(10, 2)), std::invalid_argument);
+  }
+  const ipc::CollisionMesh mesh(x, {}, faces), square = mesh_of(9, 9);
+  for (const ipc::CollisionMesh* m : {&mesh, &square}) {
+    CHECK(m->vertices(x) == x);
+    for (const int n : {0, 9, 26, 28})
+      CHECK_THROWS_WITH(m->to_full_dof(Eigen::VectorXd::Zero(n)),
+                        Catch::Contains(std::to_string(n)) && Catch::Contains("27 degrees of freedom"));
+    for (const auto& [rows, cols] : {std::pair(27, 26), {26, 27}, {9, 9}})
+      CHECK_THROWS_WITH(m->to_full_dof(Eigen::SparseMatrix<double>(rows, cols)),
+                        Catch::Contains(std::to_string(rows) + " x " + std::to_string(cols)) &&
+                            Catch::Contains("27 degrees of freedom"));
+  }
+}
+
+TEST_CASE("positions of the wrong shape are refused before they are read", "[unit]") {
+  const MatrixXi faces = (MatrixXi(2, 3) << 0, 1, 2, 3, 4, 5).finished();
+  const MatrixXd x = MatrixXd::Random(6, 3);
+  ipc::CollisionMesh mesh(x, {}, faces);
+  for (const bool filtered : {false, true}) {
+    if (filtered) mesh.can_collide = [](std::size_t, std::size_t) { return true; };
+    for (const auto& [rows, cols] : {std::pair(0, 3), {5, 3}, {7, 3}, {6000, 3}, {6, 2}, {6, 4}, {9, 2}}) {
+      CAPTURE(filtered, rows, cols);
+      const MatrixXd other = MatrixXd::Zero(rows, cols);
+      CHECK_THROWS_AS(ipc::compute_collision_free_stepsize(mesh, x, other), std::invalid_argument);
+      CHECK_THROWS_AS(ipc::compute_collision_free_stepsize(mesh, other, x), std::invalid_argument);
+      CHECK_THROWS_AS(ipc::is_step_collision_free(mesh, x, other), std::invalid_argument);
+      CHECK_THROWS_AS(ipc::is_step_collision_free(mesh, other, x), std::invalid_argument);
+      CHECK_THROWS_AS(ipc::has_intersections(mesh, other), std::invalid_argument);
+    }
+  }
+}
+
 TEST_CASE("edges that lack one of a face are refused by the ids that were passed", "[unit]") {
   const MatrixXd x = MatrixXd::Random(5, 3);
   const MatrixXi faces = Eigen::RowVector3i(1, 2, 4), wire = Eigen::RowVector2i(1, 2);

@@ -1,0 +1,204 @@
+// The CollisionMesh of onset/compat/ipc.hpp, which includes this.
+//
+// Source: ipc::CollisionMesh of ipc-toolkit (https://github.com/ipc-sim/ipc-toolkit), whose names it has.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <onset/mesh.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace onset::ipc {
+
+// A surface, and how it lies in a full (volume) mesh. Vertices are rows.
+//
+// The calls below take surface positions (#V x 3, model length), as vertices() returns them. Const calls are
+// safe from several threads where can_collide is. Maps between the two are the host's arithmetic, in whatever
+// floating-point environment it has set.
+class CollisionMesh {
+ public:
+  // rest_positions: #V x 3, model length.
+  // edges: #E x 2, faces: #F x 3, ids of vertices. Empty edges are those of the faces.
+  // displacement_map: 3 #V x 3 #full or #V x #full, from displacements of the full mesh to those of the
+  // surface; empty: the surface is the full mesh.
+  // Throws as onset::Mesh, also where `edges` lacks one of a face, as ipc-toolkit does, and
+  // std::invalid_argument for a map of another shape.
+  CollisionMesh(const Eigen::MatrixXd& rest_positions, const Eigen::MatrixXi& edges = {},
+                const Eigen::MatrixXi& faces = {}, const Eigen::SparseMatrix<double>& displacement_map = {})
+      : rest_(rest_positions),
+        full_rest_(rest_positions),
+        edges_(edges.size() == 0 && faces.size() > 0 ? onset::edges(faces) : edges),
+        faces_(faces),
+        map_(displacement_map),
+        mesh_(rest_, edges_, faces_) {
+    check_map();
+    for (int v = 0; v < rest_.rows(); ++v) full_vertex_.push_back(v);
+    std::vector<bool> used(full_vertex_.size());
+    for (const Eigen::MatrixXi* ids : {&edges_, &faces_})
+      for (Eigen::Index i = 0; i < ids->size(); ++i) used[std::size_t(ids->data()[i])] = true;
+    std::copy_if(full_vertex_.begin(), full_vertex_.end(), std::back_inserter(codim_vertices_),
+                 [&](int v) { return !used[std::size_t(v)]; });
+    CollisionRules rules;
+    rules.points = codim_vertices_;
+    mesh_.set_rules(rules);
+  }
+
+  // Makes the surface of those vertices of the full mesh that an edge or a face uses, in their order.
+  // full_rest_positions: #full x 3, model length; edges, faces: ids of the full mesh.
+  // Throws std::invalid_argument for an id out of range, and as onset::Mesh.
+  static CollisionMesh build_from_full_mesh(const Eigen::MatrixXd& full_rest_positions,
+                                            const Eigen::MatrixXi& edges, const Eigen::MatrixXi& faces) {
+    std::vector<int> surface(std::size_t(full_rest_positions.rows()), -1), full;
+    const auto use = [&](const Eigen::MatrixXi& ids) {
+      for (Eigen::Index i = 0; i < ids.size(); ++i) {
+        const int v = ids.data()[i];
+        if (v < 0 || v >= full_rest_positions.rows())
+          throw std::invalid_argument("vertex " + std::to_string(v) + " is out of range, the full mesh has " +
+                                      std::to_string(full_rest_positions.rows()));
+        surface[std::size_t(v)] = 0;
+      }
+    };
+    use(edges), use(faces);
+    if (edges.size() > 0)
+      onset::Mesh(full_rest_positions.rows(), edges, faces);  // throws by the full mesh's ids
+    for (std::size_t v = 0; v < surface.size(); ++v)
+      if (surface[v] == 0) surface[v] = int(full.size()), full.push_back(int(v));
+    const auto renumbered = [&](Eigen::MatrixXi ids) {
+      for (Eigen::Index i = 0; i < ids.size(); ++i) ids.data()[i] = surface[std::size_t(ids.data()[i])];
+      return ids;
+    };
+    Eigen::MatrixXd rest(Eigen::Index(full.size()), full_rest_positions.cols());
+    for (std::size_t v = 0; v < full.size(); ++v)
+      rest.row(Eigen::Index(v)) = full_rest_positions.row(full[v]);
+    CollisionMesh mesh(rest, renumbered(edges), renumbered(faces));
+    mesh.full_vertex_ = full;
+    mesh.full_rest_ = full_rest_positions;
+    return mesh;
+  }
+
+  const Eigen::MatrixXd& rest_positions() const { return rest_; }
+  const Eigen::MatrixXi& edges() const { return edges_; }
+  const Eigen::MatrixXi& faces() const { return faces_; }
+  std::size_t num_vertices() const { return std::size_t(rest_.rows()); }
+  std::size_t num_edges() const { return std::size_t(edges_.rows()); }
+  std::size_t num_faces() const { return std::size_t(faces_.rows()); }
+  // Vertices of no edge and no face, ascending: they collide with edges and with each other, too.
+  const std::vector<int>& codim_vertices() const { return codim_vertices_; }
+  std::size_t num_codim_vertices() const { return codim_vertices_.size(); }
+  std::size_t ndof() const { return 3 * num_vertices(); }
+  std::size_t full_num_vertices() const {
+    return std::size_t(map_.size() ? full_columns() : full_rest_.rows());
+  }
+  std::size_t full_ndof() const { return 3 * full_num_vertices(); }
+  int dim() const { return 3; }
+  int to_full_vertex_id(int vertex) const { return full_vertex_.at(std::size_t(vertex)); }
+
+  // vertices: surface positions of full positions (#full x 3). The other two take displacements of the full
+  // mesh (#full x 3) and give surface positions and displacements of the surface.
+  // Throws std::invalid_argument for a wrong number of rows or columns. So does `vertices` for a map from
+  // another number of vertices than the surface has: positions of those at rest are not known, as they are
+  // not in ipc-toolkit.
+  Eigen::MatrixXd vertices(const Eigen::MatrixXd& full_positions) const {
+    if (Eigen::Index(full_num_vertices()) != full_rest_.rows())
+      throw std::invalid_argument("the map is from " + std::to_string(full_num_vertices()) + " vertices to " +
+                                  std::to_string(rest_.rows()) +
+                                  ", whose positions at rest are not known: use displace_vertices");
+    require(full_positions, full_rest_.rows());
+    return map_.size() ? displace_vertices(full_positions - full_rest_) : chosen(full_positions);
+  }
+  Eigen::MatrixXd displace_vertices(const Eigen::MatrixXd& full_displacements) const {
+    return rest_ + map_displacements(full_displacements);
+  }
+  Eigen::MatrixXd map_displacements(const Eigen::MatrixXd& full_displacements) const {
+    require(full_displacements, Eigen::Index(full_num_vertices()));
+    if (map_.size() == 0) return chosen(full_displacements);
+    if (map_.rows() == rest_.rows()) return map_ * full_displacements;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const RowMajor rows = full_displacements;
+    const Eigen::VectorXd x = map_ * Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
+    return Eigen::Map<const RowMajor>(x.data(), rest_.rows(), 3);
+  }
+
+  // Takes a gradient (ndof) or a Hessian (ndof x ndof) from the surface's degrees of freedom (x y z of vertex
+  // 0, ...) to those of the full mesh.
+  // Throws std::invalid_argument for another size.
+  Eigen::VectorXd to_full_dof(const Eigen::VectorXd& x) const {
+    require_dof(x.rows(), x.rows(), std::to_string(x.rows()));
+    return to_full().transpose() * x;
+  }
+  Eigen::SparseMatrix<double> to_full_dof(const Eigen::SparseMatrix<double>& hessian) const {
+    require_dof(hessian.rows(), hessian.cols(), shape(hessian));
+    const Eigen::SparseMatrix<double> m = to_full();
+    return Eigen::SparseMatrix<double>(m.transpose() * hessian * m);
+  }
+
+  // Whether two vertices may collide; empty: all may. A pair of primitives is left out where none of its
+  // pairs of vertices may. Candidates::build and has_intersections ask it on the caller's thread.
+  std::function<bool(std::size_t, std::size_t)> can_collide;
+
+  const onset::Mesh& onset_mesh() const { return mesh_; }
+
+  // Throws std::invalid_argument where positions are not #V x 3: Eigen does not ask in optimised builds.
+  void require_surface(const Eigen::MatrixXd& x) const {
+    if (x.rows() != rest_.rows() || x.cols() != 3)
+      throw std::invalid_argument("got " + shape(x) + " positions; the surface has " +
+                                  std::to_string(rest_.rows()) + " vertices");
+  }
+
+ private:
+  template <class Matrix>
+  static std::string shape(const Matrix& x) {
+    return std::to_string(x.rows()) + " x " + std::to_string(x.cols());
+  }
+  static void require(const Eigen::MatrixXd& x, Eigen::Index rows) {
+    if (x.rows() != rows || x.cols() != 3)
+      throw std::invalid_argument("got " + shape(x) + " values; the full mesh has " + std::to_string(rows) +
+                                  " vertices");
+  }
+  void require_dof(Eigen::Index rows, Eigen::Index cols, const std::string& got) const {
+    if (rows != Eigen::Index(ndof()) || cols != rows)
+      throw std::invalid_argument("got " + got + " values; the surface has " + std::to_string(ndof()) +
+                                  " degrees of freedom");
+  }
+  void check_map() const {
+    const Eigen::Index n = rest_.rows();
+    if (map_.size() > 0 && map_.rows() != n && (map_.rows() != 3 * n || map_.cols() % 3 != 0))
+      throw std::invalid_argument("the displacement_map is " + shape(map_) + ": for " + std::to_string(n) +
+                                  " vertices it is " + std::to_string(n) + " x #full or " +
+                                  std::to_string(3 * n) + " x 3 #full");
+  }
+  Eigen::Index full_columns() const { return map_.rows() == rest_.rows() ? map_.cols() : map_.cols() / 3; }
+  Eigen::MatrixXd chosen(const Eigen::MatrixXd& full) const {
+    Eigen::MatrixXd x(rest_.rows(), 3);
+    for (Eigen::Index v = 0; v < x.rows(); ++v) x.row(v) = full.row(full_vertex_[std::size_t(v)]);
+    return x;
+  }
+  Eigen::SparseMatrix<double> to_full() const {
+    if (map_.size() && map_.rows() != rest_.rows()) return map_;
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](Eigen::Index v, Eigen::Index full, double value) {
+      for (int a = 0; a < 3; ++a) entries.emplace_back(int(3 * v + a), int(3 * full + a), value);
+    };
+    for (int column = 0; column < map_.outerSize(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator i(map_, column); i; ++i)
+        add(i.row(), i.col(), i.value());
+    if (map_.size() == 0)
+      for (std::size_t v = 0; v < full_vertex_.size(); ++v) add(Eigen::Index(v), full_vertex_[v], 1);
+    Eigen::SparseMatrix<double> m{Eigen::Index(ndof()), Eigen::Index(full_ndof())};
+    m.setFromTriplets(entries.begin(), entries.end());
+    return m;
+  }
+
+  Eigen::MatrixXd rest_, full_rest_;
+  Eigen::MatrixXi edges_, faces_;
+  Eigen::SparseMatrix<double> map_;
+  std::vector<int> full_vertex_, codim_vertices_;
+  onset::Mesh mesh_;
+};
+
+}  // namespace onset::ipc
