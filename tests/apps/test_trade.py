@@ -69,6 +69,42 @@ class Trade(AppTest):
         base = self.trade(a, b, "--truth", early, "--axis", "kernel")["settings"][0]
         self.assertEqual(base["early"]["late"], 1)
 
+    def test_what_a_budget_cuts_off_is_not_missed(self):
+        """Sets that say that they are not complete, and until when they are."""
+        a, b, found = self.soup()
+        truth, limits = self.truth(found), [("--check-limit", "0", "out_of_checks"), ("--time-limit", "0", "out_of_time"),
+                                            ("--memory-limit", "0", "out_of_memory"), ("--memory-limit", "2000", "out_of_memory")]
+        whole = self.trade(a, b, "--truth", truth, "--axis", "threads,kernel")
+        self.assertEqual([(s["incomplete"], s["complete_until"]) for s in whole["settings"]], [(None, None)] * len(whole["settings"]))
+        for option, value, outcome in limits:
+            with self.subTest(option=option, value=value):
+                options = ["--truth", truth, "--axis", "threads,kernel", option, value]
+                result = self.trade(a, b, *options, "--target-budget", "1000")
+                self.assertGreater(len(result["settings"]), 1)
+                for s in result["settings"]:
+                    self.assertEqual((s["incomplete"], s["false_negatives"], s["on_front"]), (outcome, 0, False))
+                    self.assertLess(s["positives"], len(found))
+                    self.assertLessEqual(s["complete_until"], 1)
+                self.assertEqual((result["recommended"], result["base_on_front"]), (None, False))
+                text = self.succeed("trade", a, b, *options, *self.QUICK)
+                self.assertEqual(text.count(f"incomplete: {outcome}"), len(result["settings"]))
+                self.assertIn("False negatives in all settings together: 0;", text)
+                table = list(csv.DictReader(io.StringIO(self.csv("trade", a, b, *options, *self.QUICK))))
+                self.assertEqual({row["incomplete"] for row in table}, {outcome})
+        self.assertGreater(result["settings"][0]["complete_until"], 0)  # of the last: the earliest contacts are kept
+        # What should be there by then is missed, and what is known to be later, or by no time, is not.
+        pairs = self.write("more.csv", "kind,a,b,toi_lo,toi_hi\nvf,0,50,1e-9,1e-9\nvf,0,60,0.999,0.999\nvf,0,70,,\n")
+        base = self.trade(a, b, "--truth", pairs, "--axis", "kernel", "--memory-limit", "2000")["settings"][0]
+        self.assertEqual((base["incomplete"], base["false_negatives"]), ("out_of_memory", 1))
+
+    def test_references_are_not_cut_off(self):
+        faces, t0, t1 = random_soup(3, 1000)
+        a, b = self.write("a.obj", obj(t0, faces)), self.write("b.obj", obj(t1, faces))
+        options = ["--axis", "kernel", "--max-checks", "1", "--certainty", "conservative"]
+        base = self.trade(a, b, *options)["settings"][0]
+        cut = self.trade(a, b, *options, "--check-limit", base["checks"] + 1)["settings"][0]
+        self.assertEqual((cut["incomplete"], cut["early"]), (None, base["early"]))
+
     def test_listed_pairs(self):
         """Ids that run over vertices, edges and faces, as the public data have them."""
         a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))

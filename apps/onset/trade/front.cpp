@@ -45,6 +45,9 @@ bool alike(const Measured& a, const Measured& b) {
          !earlier(early(y), early(x)) && (same_work(a, b) || (s.low <= t.high && t.low <= s.high));
 }
 
+// Whether it answers what the base is asked, and the whole of it.
+bool counts(const Measured& m) { return m.setting.same_question && !m.answers.incomplete; }
+
 }  // namespace
 
 bool dominates(const Measured& b, const Measured& a) {
@@ -62,13 +65,12 @@ std::vector<std::size_t> pareto_front(const std::vector<Measured>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     // Not one that did the same work only: that was measured several times, and once may be slow.
     const auto beats_it = [&](const Measured& m) {
-      return m.setting.same_question && dominates(m, all[i]) &&
-             std::all_of(all.begin(), all.end(), [&](const Measured& x) {
-               return !x.setting.same_question || !same_work(x, all[i]) || dominates(m, x);
+      return counts(m) && dominates(m, all[i]) && std::all_of(all.begin(), all.end(), [&](const Measured& x) {
+               return !counts(x) || !same_work(x, all[i]) || dominates(m, x);
              });
     };
     const auto same = [&](std::size_t j) { return alike(all[j], all[i]); };
-    if (all[i].setting.same_question && std::none_of(all.begin(), all.end(), beats_it) &&
+    if (counts(all[i]) && std::none_of(all.begin(), all.end(), beats_it) &&
         std::none_of(front.begin(), front.end(), same))
       front.push_back(i);
   }

@@ -15,7 +15,8 @@ namespace app {
 bool dominates(const Measured& b, const Measured& a);
 
 // Indices of the settings that no other dominates, fastest first; of settings that nothing tells apart the
-// first, so the base before others. Only those that ask the same question as the base.
+// first, so the base before others. Only those that ask the same question as the base and answer the whole of
+// it.
 std::vector<std::size_t> pareto_front(const std::vector<Measured>& all);
 
 struct Target {

@@ -5,6 +5,8 @@
 namespace app {
 
 onset::Options finest(onset::Options base) {
+  const onset::Options defaults;
+  base.time_limit = defaults.time_limit, base.check_limit = defaults.check_limit;
   base.tolerance.reset();
   base.relative_tolerance = 1e-12;
   base.max_checks = std::max<std::int64_t>(base.max_checks, 1'000'000);

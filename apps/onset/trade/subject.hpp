@@ -1,6 +1,7 @@
 // What settings are tried on: a scene, or queries; and the round of tries.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -43,6 +44,10 @@ struct Answers {
   double achieved_tolerance = 0;                                 // the largest distance beyond the separation
   double earliest = 1;                                           // time of impact of all
   std::optional<std::int64_t> peak_bytes;
+  // Of a scene's set that a budget cut off: why, and until when all contacts are there. It has no place on
+  // the front: what is not there is not counted.
+  std::optional<onset::Outcome> incomplete;
+  double complete_until = INFINITY;
 };
 
 // Everything that is known of one setting.
@@ -74,7 +79,8 @@ std::unique_ptr<Subject> scene_subject(const std::string& a, const std::string& 
 std::unique_ptr<Subject> query_subject(const std::vector<std::string>& files, const std::string& kind,
                                        const onset::Options& base);
 
-// The finest setting there is, which stands for the exact times where those are not known.
+// The finest setting there is, which stands for the exact times where those are not known, and is not cut off
+// by time or checks.
 onset::Options finest(onset::Options base);
 
 // Whether two settings ask for the same distance.

@@ -80,6 +80,8 @@ Json measured_json(const Measured& m, bool on_front) {
           {"achieved_tolerance", a.achieved_tolerance},
           {"earliest", a.earliest},
           {"peak_bytes", or_null(a.peak_bytes)},
+          {"incomplete", a.incomplete ? Json(outcome_name(*a.incomplete)) : Json()},
+          {"complete_until", time_json(a.complete_until)},
           {"histogram", histogram_json(m)}};
 }
 
@@ -98,11 +100,12 @@ std::string memory_text(const std::optional<std::int64_t>& bytes) {
 std::string row(const Measured& m, bool on_front) {
   const Answers& a = m.answers;
   const Spread t = spread(m.us);
-  return format("%c %-14s %-29s %11.4g [%.4g, %.4g]  %9lld %9s %9s %s %9lld %9.2g %s\n", on_front ? '*' : ' ',
-                m.setting.axis.c_str(), m.setting.value.c_str(), t.median, t.least, t.most,
-                static_cast<long long>(a.positives), or_dash(a.false_positives).c_str(),
+  return format("%c %-14s %-29s %11.4g [%.4g, %.4g]  %9lld %9s %9s %s %9lld %9.2g %s%s\n",
+                on_front ? '*' : ' ', m.setting.axis.c_str(), m.setting.value.c_str(), t.median, t.least,
+                t.most, static_cast<long long>(a.positives), or_dash(a.false_positives).c_str(),
                 or_dash(a.false_negatives).c_str(), early_text(a.early).c_str(),
-                static_cast<long long>(a.budget), a.achieved_tolerance, memory_text(a.peak_bytes).c_str());
+                static_cast<long long>(a.budget), a.achieved_tolerance, memory_text(a.peak_bytes).c_str(),
+                a.incomplete ? format("  incomplete: %s", outcome_name(*a.incomplete)).c_str() : "");
 }
 
 std::string table(const TradeReport& r) {
@@ -113,16 +116,26 @@ std::string table(const TradeReport& r) {
   return text;
 }
 
+std::string incomplete_text(const TradeReport& r) {
+  const auto is_incomplete = [](const Measured& m) { return m.answers.incomplete.has_value(); };
+  if (std::none_of(r.settings.begin(), r.settings.end(), is_incomplete)) return "";
+  return "incomplete: a budget ended the call. Contacts that it could not find by then are no false "
+         "negatives, and "
+         "the setting is\nnot on the front.\n";
+}
+
 std::string legend(const TradeReport& r) {
   return format(
-      "us: %s. early: how much sooner than %s a pair is said to touch, mean and at most, in "
-      "units\n"
-      "of the step. budget: pairs that spent max_checks. reached: the largest distance beyond the separation "
-      "at\n"
-      "which a pair was reported. *: on the Pareto front of time, false positives (else positives), "
-      "earliness "
-      "and budget.\n",
-      r.subject.unit(), r.subject.reference().c_str());
+             "us: %s. early: how much sooner than %s a pair is said to touch, mean and at most, in "
+             "units\n"
+             "of the step. budget: pairs that spent max_checks. reached: the largest distance beyond the "
+             "separation "
+             "at\n"
+             "which a pair was reported. *: on the Pareto front of time, false positives (else positives), "
+             "earliness "
+             "and budget.\n",
+             r.subject.unit(), r.subject.reference().c_str()) +
+         incomplete_text(r);
 }
 
 std::string words(const Measured& m) {
@@ -164,7 +177,7 @@ std::string missed_text(const TradeReport& r) {
 
 const char* const kTradeColumns =
     "axis,value,us,us_min,us_max,cpu_us,asked,positives,false_positives,false_negatives,"
-    "early_mean,early_max,budget,tolerance,achieved_tolerance,peak_bytes,on_front";
+    "early_mean,early_max,budget,tolerance,achieved_tolerance,peak_bytes,on_front,incomplete";
 
 bool TradeReport::base_on_front() const { return contains(front, 0); }
 
@@ -194,13 +207,13 @@ void write_csv(Output& csv, const TradeReport& r) {
     const Answers& a = m.answers;
     const Spread us = spread(m.us);
     const std::string early = a.early ? format("%.9g,%.9g", a.early->mean(), a.early->most) : ",";
-    csv.write(format("%s,\"%s\",%.9g,%.9g,%.9g,%.9g,%lld,%lld,%s,%s,%s,%lld,%.9g,%.9g,%s,%d\n",
+    csv.write(format("%s,\"%s\",%.9g,%.9g,%.9g,%.9g,%lld,%lld,%s,%s,%s,%lld,%.9g,%.9g,%s,%d,%s\n",
                      m.setting.axis.c_str(), m.setting.value.c_str(), us.median, us.least, us.most,
                      spread(m.cpu).median, static_cast<long long>(a.asked),
                      static_cast<long long>(a.positives), number(a.false_positives).c_str(),
                      number(a.false_negatives).c_str(), early.c_str(), static_cast<long long>(a.budget),
                      a.tolerance, a.achieved_tolerance, number(a.peak_bytes).c_str(),
-                     int(contains(r.front, i))));
+                     int(contains(r.front, i)), a.incomplete ? outcome_name(*a.incomplete) : ""));
   }
 }
 
