@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/float_environment.hpp"
@@ -61,7 +62,8 @@ double largest_separation(const MeshData& mesh, const Options& options) {
 }
 
 double absolute_tolerance(const Options& options, double extent) {
-  return options.tolerance ? *options.tolerance : std::max(options.relative_tolerance * extent, 0x1p-1074);
+  if (options.tolerance) return *options.tolerance;
+  return std::clamp(options.relative_tolerance * extent, 0x1p-1074, std::numeric_limits<double>::max());
 }
 
 Accuracy accuracy_of(const MeshData& mesh, const Motion& motion, const Options& options) {

@@ -18,7 +18,7 @@ void check_gap_share(double gap_share);
 // Returns the distance, rounded up, that the thickest pair must keep.
 double largest_separation(const MeshData& mesh, const Options& options);
 
-// Returns Options::tolerance, or the relative one times `extent`; always > 0.
+// Returns Options::tolerance, or the relative one times `extent`; always > 0 and finite.
 double absolute_tolerance(const Options& options, double extent);
 
 // The lengths, in units of the model, by which the narrow phase works.

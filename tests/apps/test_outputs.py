@@ -469,6 +469,12 @@ class Dumps(OutputTest):
             self.assertEqual(json.loads((self.folder / "d-vf.json").read_text())["options"]["certainty"], certainty)
         self.assertGreater(queries, 500)
 
+    def test_any_tolerance_can_be_replayed(self):
+        a, b = self.soup()
+        for option, value in itertools.product(["--tolerance", "--relative-tolerance"], ["5e-324", "1e-320", "1e305", "1.7e308"]):
+            self.succeed("active-set", a, b, option, value, "--dump", "d")
+            self.assertEqual(self.json("replay", "d-vf.csv", "d-ee.csv")["differing"], 0, (option, value))
+
     def test_budgets_of_the_call_are_not_those_of_a_query(self):
         a, b = self.soup()
         for limit in [["--check-limit", "100"], ["--time-limit", "0"], ["--memory-limit", "512"]]:

@@ -166,6 +166,21 @@ class Trade(AppTest):
             self.assertEqual(sum(histogram["positive"]) + sum(histogram["negative"]), 3)
         self.assertEqual(self.trade("--queries", other)["settings"][0]["positives"], 0)
 
+    def test_tolerances_at_the_ends_of_doubles(self):
+        """Settings around the base that are no tolerances are left out."""
+        a, b = self.write("a.obj", obj(START, FACES)), self.write("b.obj", obj(END, FACES))
+        query = self.write("vf.csv", rows(vertex_face(1, -1), 1))
+        for option, key in [("--tolerance", "tolerance"), ("--relative-tolerance", "relative_tolerance")]:
+            for value in ["5e-324", "1e-320", "1e305", "1.7e308"]:
+                for subject in [(a, b), ("--queries", query)]:
+                    with self.subTest(option=option, value=value, subject=subject):
+                        settings = self.trade(*subject, option, value, "--axis", "tolerance,narrow-phase")["settings"]
+                        values = [s["numbers"][key] for s in settings if s["axis"] == "tolerance"]
+                        self.assertEqual(settings[0]["numbers"][key], float(value))
+                        self.assertTrue(values and all(0 < v < float("inf") for v in values))
+                        self.assertLess(len(values), 10)
+                        self.assertIn("narrow-phase", {s["axis"] for s in settings})
+
     def test_csv(self):
         a, b, _ = self.soup()
         table = list(csv.DictReader(io.StringIO(self.csv("trade", a, b, *self.QUICK, "--axis", "norm,threads"))))

@@ -123,6 +123,22 @@ TEST_CASE("the ends of the options' ranges are accepted", "[unit]") {
   for (const auto& call : c.with(c.scene.x_t0, c.scene.x_t1, o)) CHECK_NOTHROW(call());
 }
 
+TEST_CASE("the tolerance that a call says it had is one that a call takes", "[unit]") {
+  const Calls c;
+  for (const double relative : {1e-320, 1e-6, 1e300, 1e308, std::numeric_limits<double>::max()})
+    for (const double size : {1e-300, 1.0, 1e300}) {
+      const Eigen::MatrixXd x_t0 = size * c.scene.x_t0, x_t1 = size * c.scene.x_t1;
+      Options o;
+      o.relative_tolerance = relative;
+      const StepResult r = compute_collision_free_stepsize(c.mesh, x_t0, x_t1, o);
+      CAPTURE(relative, size, r.stats.tolerance);
+      o.tolerance = r.stats.tolerance;
+      StepResult again;
+      CHECK_NOTHROW(again = compute_collision_free_stepsize(c.mesh, x_t0, x_t1, o));
+      CHECK((again.step == r.step && again.stats.tolerance == r.stats.tolerance));
+    }
+}
+
 TEST_CASE("bad topology is named by its row", "[unit]") {
   const Eigen::MatrixXd x = Eigen::MatrixXd::Zero(4, 3);
   Eigen::MatrixXi F(2, 3), E(2, 2);

@@ -1,6 +1,7 @@
 #include "onset/trade/setting.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "files/output.hpp"
 #include "onset/results/report.hpp"
@@ -35,14 +36,21 @@ class Axis {
   std::vector<Setting> settings_;
 };
 
+// Of the two tolerances the one that is in force.
+double& tolerance_of(Options& o) { return o.tolerance ? *o.tolerance : o.relative_tolerance; }
+
+// Adds the setting whose tolerance is that of the base times `factor`, if a tolerance is what that is.
+template <class Change>
+void add_tolerance(Axis& axis, Options o, double factor, const std::string& name, Change&& change) {
+  const double value = tolerance_of(o) * factor;
+  if (!(value > 0 && std::isfinite(value))) return;
+  axis.add(name + format("%.3g", value) + (o.tolerance ? "" : " relative"),
+           [&](Options& changed) { tolerance_of(changed) = value, change(changed); });
+}
+
 void tolerance(Axis& axis, const Options& base, const Grounds&) {
-  for (const double factor : {1e5, 1e4, 1e3, 1e2, 1e1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-    if (base.tolerance)
-      axis.add(format("%.3g", *base.tolerance * factor), [&](Options& o) { *o.tolerance *= factor; });
-    else
-      axis.add(format("%.3g relative", base.relative_tolerance * factor),
-               [&](Options& o) { o.relative_tolerance *= factor; });
-  }
+  for (const double factor : {1e5, 1e4, 1e3, 1e2, 1e1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6})
+    add_tolerance(axis, base, factor, "", [](Options&) {});
 }
 
 void max_checks(Axis& axis, const Options& base, const Grounds&) {
@@ -73,15 +81,8 @@ void norm(Axis& axis, const Options& base, const Grounds& grounds) {
 // The paper's root finder alone, for which the tolerance decides how fine its boxes get.
 void narrow_phase(Axis& axis, const Options& base, const Grounds&) {
   for (const double factor : {1e4, 1e2, 1e0, 1e-2})
-    axis.add("inclusion, " + (base.tolerance ? format("%.3g", *base.tolerance * factor)
-                                             : format("%.3g relative", base.relative_tolerance * factor)),
-             [&](Options& o) {
-               o.narrow_phase = NarrowPhaseMethod::inclusion;
-               if (o.tolerance)
-                 *o.tolerance *= factor;
-               else
-                 o.relative_tolerance *= factor;
-             });
+    add_tolerance(axis, base, factor, "inclusion, ",
+                  [](Options& o) { o.narrow_phase = NarrowPhaseMethod::inclusion; });
   if (base.narrow_phase != NarrowPhaseMethod::automatic)
     axis.add("automatic", [](Options& o) { o.narrow_phase = NarrowPhaseMethod::automatic; });
 }
