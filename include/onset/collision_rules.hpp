@@ -36,9 +36,9 @@ struct CollisionRules {
   std::vector<std::array<int, 2>> excluded_bodies;
 
   // Static vertices (#V flags): they stay where they are, x_t1 = x_t0 in every call (else the call throws,
-  // naming the vertex; steps of listed or close pairs do not look). Pairs all of whose vertices are static
-  // are left out. Boxes and tree of the primitives all of whose vertices are static are kept from call to
-  // call until one of these vertices is found elsewhere.
+  // naming the vertex). Pairs all of whose vertices are static are left out. Boxes and tree of the primitives
+  // all of whose vertices are static are kept from call to call until one of these vertices is found
+  // elsewhere.
   std::vector<bool> static_vertices;
 
   // Bits of the groups that each vertex is in, and of those that it meets (#V values each, both or none).

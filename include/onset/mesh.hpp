@@ -40,7 +40,8 @@ class ONSET_API Mesh {
   // listed.
   // Throws std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, a wrong
   // number of columns, a face that has an edge which `edges` lacks, as its contacts would be lost
-  // (complete_edges adds them), or what is wrong with the rules.
+  // (complete_edges adds them), or what is wrong with the rules; std::runtime_error as Options::threads says,
+  // where it sorts the edges of many faces.
   Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces, const CollisionRules& rules = {});
   // As above with edges derived from the faces: onset::edges(faces), the order of igl::edges.
   Mesh(std::ptrdiff_t vertices, const Indices& faces, const CollisionRules& rules = {});

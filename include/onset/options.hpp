@@ -106,7 +106,8 @@ struct Options {
 
   // 0: the call runs in the caller's oneTBB task arena, as it is; where onset is built without TBB, in as
   // many threads as the hardware has. n >= 1: in an arena of its own, of n threads at most. The answer is the
-  // same bytes.
+  // same bytes. Where oneTBB cannot make the first thread that a process wants, a call throws its
+  // std::runtime_error; 1 wants none.
   int threads = 0;
 
   // With a separation > 0, contacts after the start are marked certain at level exact only, where a point of

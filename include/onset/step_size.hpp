@@ -19,8 +19,8 @@ struct StepResult {
   // 0, unless a pair parts from a gap so small that storing the positions of a shorter step could close it.
   double shortest = 0;
   // The earliest contact of the exact motion: never later, infinite where there is none. With
-  // Exactness::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one. 0 where
-  // the call ended early.
+  // Exactness::exact and separation 0 it is between toi and toi_hi, adjacent doubles or the same one. Where
+  // the call ended early 0; of compute_cfl_stepsize then the step, or infinite where that is 1.
   double toi = 0;
   // As Contact::toi_hi, of the earliest contact; infinite for the next contact of a pair that parts at the
   // start.

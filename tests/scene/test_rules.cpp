@@ -129,6 +129,25 @@ TEST_CASE("rules may be filled in any order, at once or one by one", "[unit]") {
   CHECK_NOTHROW(all.mesh(backwards));
 }
 
+TEST_CASE("a static vertex that moves is refused by every call that takes two ends of a motion", "[unit]") {
+  Mesh mesh = two_cubes();
+  Eigen::MatrixXd x = Eigen::MatrixXd::Random(16, 3), there = x;
+  const Candidates listed = compute_candidates(mesh, x, x);
+  const ClosePairs close = close_pairs(mesh, x, 0.1);
+  std::vector<bool> still(16);
+  still[11] = true;
+  set_rule(mesh, &CollisionRules::static_vertices, still);
+  const auto refused = [](const auto& call) { CHECK_THROWS_WITH(call(), Contains("vertex 11 is static")); };
+  there(11, 1) += 0x1p-50;
+  refused([&] { compute_collision_free_stepsize(mesh, x, there); });
+  refused([&] { is_step_collision_free(mesh, x, there); });
+  refused([&] { construct_active_set(mesh, x, there); });
+  refused([&] { compute_candidates(mesh, x, there); });
+  refused([&] { LineSearch(mesh, x, Eigen::MatrixXd(there - x)); });
+  refused([&] { compute_collision_free_stepsize(mesh, listed, x, there); });
+  refused([&] { compute_cfl_stepsize(mesh, x, there, close); });
+}
+
 TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]") {
   Mesh mesh = two_cubes();
   std::vector<int> body(16, 0);

@@ -152,6 +152,7 @@ TEST_CASE("a CFL step out of time is the one that the distances allow", "[oracle
       CHECK(r.step == by_gaps);
       CHECK((r.step <= first_contact(mesh, x, there) && !r.limiting));
       CHECK(r.outcome == (r.step < 1 ? Outcome::out_of_time : Outcome::free));
+      CHECK(r.toi == (r.step < 1 ? r.step : INFINITY));
       longer += r.step > 0;
     }
   CHECK(longer > 4);
