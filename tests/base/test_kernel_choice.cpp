@@ -48,6 +48,14 @@ int main(int, char** argv) {
   else
     check(first == (avx2 ? "avx2" : "scalar"), "the best that there is");
   check(std::string(onset::to_string(InstructionSet::avx2)) == "avx2", "its name");
+  check(std::string(onset::to_string(InstructionSet::automatic)) == "automatic",
+        "the name of what is not chosen yet");
+  try {
+    onset::resolve_instruction_set(InstructionSet(7));
+    check(false, "a number that names no set throws");
+  } catch (const std::invalid_argument& e) {
+    check(std::string(e.what()) == "instruction set 7: unknown", "a number that names no set is named");
+  }
 
   setenv("ONSET_KERNEL", word == "scalar" ? "avx2" : "scalar", 1);
   std::vector<std::thread> threads;

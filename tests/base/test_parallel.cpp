@@ -1,14 +1,10 @@
 // What both back ends of base/parallel.hpp promise; the build makes a program for each.
-#include <sys/wait.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <random>
@@ -17,6 +13,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "tests/base/child_process.hpp"
 #include "tests/catch.hpp"
 
 #if defined(__SSE2__)
@@ -24,6 +21,7 @@
 #endif
 
 using namespace onset;
+using tests::in_child_process;
 
 namespace {
 
@@ -50,21 +48,6 @@ bool wait_for(const std::atomic<int>& count, int wanted) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (count < wanted && std::chrono::steady_clock::now() < end) std::this_thread::yield();
   return count >= wanted;
-}
-
-// Runs f in a child process and returns its status, or -1 where it did not end by itself.
-template <class F>
-int in_child_process(F&& f) {
-  std::fflush(nullptr);  // or the child would print it again
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
-    alarm(60);  // a hanging child must not hang the test
-    std::exit(f());
-  }
-  int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 }  // namespace
@@ -107,6 +90,15 @@ TEST_CASE("an arena of n threads has n at most, and the second one comes", "[uni
     CHECK(most <= threads);
     CHECK(came == (threads > 1));
   }
+}
+
+TEST_CASE("outside any arena a loop has the threads of the hardware", "[unit][parallel]") {
+  CHECK(current_threads() >= 1);
+  CHECK(sum_up_to(1000) == 500500);
+  in_arena(0, [] { CHECK(sum_up_to(1000) == 500500); });
+  int before = 0;
+  std::thread([&] { before = current_threads(); }).join();
+  CHECK(current_threads() == before);
 }
 
 TEST_CASE("an exception leaves its loop when no chunk runs any more", "[unit][parallel]") {

@@ -72,6 +72,22 @@ TEST_CASE("parts are put in the order of their keys, after what is there already
     }
 }
 
+TEST_CASE("parts whose keys are all alike are all there after sorting", "[unit]") {
+  const std::size_t count = 2 * Parts<Item>::kPart + 7;
+  std::vector<Item> items(count, item(5)), found;
+  for (std::size_t i = 0; i < count; ++i) items[i].payload[2] = double(i);
+  Parts<Item> parts;
+  for (std::size_t i = 0; i < count; i += 1000) {
+    std::vector<Item> part(items.begin() + std::ptrdiff_t(i),
+                           items.begin() + std::ptrdiff_t(std::min(count, i + 1000)));
+    parts.add(part);
+  }
+  REQUIRE(parts.sort_into(found, key_of, {}));
+  std::sort(found.begin(), found.end(),
+            [](const Item& p, const Item& q) { return p.payload[2] < q.payload[2]; });
+  CHECK((found == items));
+}
+
 TEST_CASE("sorting parts can be stopped wherever it asks, and asks all the time", "[property]") {
   scenes::Random random(12);
   for (const int kind : {0, 1, 2}) {
