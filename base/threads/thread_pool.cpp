@@ -93,7 +93,6 @@ void ThreadPool::run(Worker& self) noexcept {
 
 void ThreadPool::open(Loop& loop) noexcept {
   const int wanted = int(std::min(std::size_t(loop.team.threads - 1), loop.chunks - 1));
-  if (wanted <= 0) return;
   const int most = std::min(loop.team.threads - 1, most_workers());
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopped_) return;
