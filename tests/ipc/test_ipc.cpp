@@ -121,6 +121,49 @@ TEST_CASE("vertices of no edge or face collide with edges and each other", "[ora
   CHECK((contacts > 4 && of_points > 4));
 }
 
+TEST_CASE("candidates of positions are those of a motion that stays there", "[unit]") {
+  MatrixXd x(8, 3);
+  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 0.5, 2, 1, 0.5, 1, 2, 0.5, 1, 1, 9, 3, 3, 9;
+  const MatrixXi faces = (MatrixXi(2, 3) << 0, 1, 2, 3, 4, 5).finished();
+  const ipc::CollisionMesh mesh(x, {}, faces);
+  ipc::Candidates still, moving;
+  CHECK(still.empty());
+  still.build(mesh, x, 0.125);
+  CHECK(still.empty());
+  still.build(mesh, x, 1);
+  moving.build(mesh, x, x, 1);
+  CHECK((!still.empty() && still.size() == moving.size()));
+  CHECK(still.fv_candidates.size() == moving.fv_candidates.size());
+
+  // A vertex between those of no edge and no face, and one after them.
+  for (const int vertex : {2, 8}) {
+    still.clear();
+    still.vv_candidates = {{6, vertex}};
+    CHECK_THROWS_WITH(still.compute_collision_free_stepsize(mesh, x, x),
+                      "vertex " + std::to_string(vertex) + " is none of codim_vertices");
+  }
+}
+
+TEST_CASE("what is not finite has no candidates and no step", "[unit]") {
+  const MatrixXd x = MatrixXd::Random(6, 3);
+  const MatrixXi faces = (MatrixXi(2, 3) << 0, 1, 2, 3, 4, 5).finished();
+  ipc::CollisionMesh mesh(x, onset::edges(faces), faces);
+  for (const double bad : {double(NAN), double(INFINITY)})
+    for (const bool filtered : {false, true})
+      for (const bool at_start : {false, true}) {
+        CAPTURE(bad, filtered, at_start);
+        mesh.can_collide = nullptr;
+        if (filtered) mesh.can_collide = [](std::size_t, std::size_t) { return true; };
+        MatrixXd other = x;
+        other(4, 1) = bad;
+        const MatrixXd &V0 = at_start ? other : x, &V1 = at_start ? x : other;
+        ipc::Candidates candidates;
+        CHECK_THROWS_WITH(candidates.build(mesh, V0, V1), "Candidates::build: non_finite");
+        CHECK(ipc::compute_collision_free_stepsize(mesh, V0, V1) == 0);
+        CHECK_FALSE(ipc::is_step_collision_free(mesh, V0, V1));
+      }
+}
+
 TEST_CASE("a surface of a full mesh takes its vertices and gives its dofs back", "[unit]") {
   // Vertices 1, 3, 4 and 0 of five are on the surface.
   MatrixXd full(5, 3);
@@ -129,10 +172,17 @@ TEST_CASE("a surface of a full mesh takes its vertices and gives its dofs back",
   faces << 1, 3, 4, 0, 3, 1;
   const ipc::CollisionMesh mesh = ipc::CollisionMesh::build_from_full_mesh(full, edges, faces);
   CHECK((mesh.num_vertices() == 4 && mesh.num_edges() == 5 && mesh.full_num_vertices() == 5));
+  CHECK((mesh.num_faces() == 2 && mesh.ndof() == 12 && mesh.dim() == 3));
   CHECK((mesh.to_full_vertex_id(0) == 0 && mesh.to_full_vertex_id(2) == 3 && mesh.to_full_vertex_id(3) == 4));
   CHECK(mesh.vertices(full) == mesh.rest_positions());
   CHECK(mesh.displace_vertices(full) == 2 * mesh.rest_positions());
   CHECK_THROWS_AS(mesh.vertices(mesh.rest_positions()), std::invalid_argument);
+  CHECK_THROWS_AS(mesh.vertices(MatrixXd::Zero(5, 2)), std::invalid_argument);
+  for (const int wrong : {-1, 5}) {
+    faces(1, 1) = wrong;
+    CHECK_THROWS_WITH(ipc::CollisionMesh::build_from_full_mesh(full, edges, faces),
+                      "vertex " + std::to_string(wrong) + " is out of range, the full mesh has 5");
+  }
 
   const Eigen::VectorXd gradient = Eigen::VectorXd::LinSpaced(12, 1, 12);
   const Eigen::VectorXd in_full = mesh.to_full_dof(gradient);
@@ -150,6 +200,12 @@ TEST_CASE("a surface of a full mesh takes its vertices and gives its dofs back",
     const ipc::CollisionMesh mapped(mesh.rest_positions(), mesh.edges(), mesh.faces(), map);
     CHECK(mapped.full_ndof() == 15);
     CHECK(mapped.displace_vertices(full) == mesh.displace_vertices(full));
+    // Positions go through the map as displacements from rest.
+    const MatrixXd moved = MatrixXd::Random(4, 3);
+    const ipc::CollisionMesh scaled(
+        mesh.rest_positions(), mesh.edges(), mesh.faces(),
+        Eigen::SparseMatrix<double>(2 * MatrixXd::Identity(4 * dim, 4 * dim).sparseView()));
+    CHECK(scaled.vertices(moved) == mesh.rest_positions() + 2 * MatrixXd(moved - mesh.rest_positions()));
     CHECK(mapped.to_full_dof(gradient) == in_full);
   }
 }
