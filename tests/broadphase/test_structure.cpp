@@ -83,6 +83,8 @@ TEST_CASE("a refit finds what a new broad phase finds", "[property]") {
     BroadPhaseInput input{soup.mesh, first};
     input.instruction_set = m.instruction_set;
     const auto reused = make_broad_phase(m.method, input);
+    CHECK(reused->suits(first));
+    CHECK_FALSE(make_broad_phase(BroadPhaseMethod::brute, input)->suits(first));  // it has nothing to keep
     for (int round = 0; round < 6; ++round) {
       Soup next = soup;
       for (double& x : next.x_t1) x += scenes::uniform(random, -0.3, 0.3);

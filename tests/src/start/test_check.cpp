@@ -252,6 +252,18 @@ TEST_CASE("pairs that are found can be left out, by every call", "[property]") {
   }
 }
 
+TEST_CASE("a start within its separation is not acceptable, though nothing touches", "[unit]") {
+  Eigen::MatrixXd x(6, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5, 1, 0, 0.5, 0, 1, 0.5;
+  const Mesh mesh(x, Eigen::MatrixXi((Eigen::MatrixXi(2, 3) << 0, 1, 2, 3, 4, 5).finished()));
+  Options o;
+  CHECK(check(mesh, x, o).clean());
+  o.min_separation = 0.75;
+  const StartReport near = check(mesh, x, o);
+  CHECK((near.outcome == Outcome::free && near.intersections.empty() && near.touching.empty()));
+  CHECK((!near.within_separation.empty() && !near.acceptable()));
+}
+
 TEST_CASE("a start that cannot be looked at, or not to the end, is not acceptable", "[unit]") {
   const Crowd crowd = apart_crowd();
   CHECK(check(crowd.mesh, crowd.x).clean());
