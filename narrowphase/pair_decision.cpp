@@ -45,7 +45,9 @@ std::optional<PairResult> PairDecision::contact(const KernelResult& checked, dou
   ExactAnswer exact{Answer::unknown, {}};
   if (!in_.inclusion_only() && found.verdict == Verdict::stalled) exact = decide_exactly(found, from);
   bool searched = false;
-  if (exact.answer == Answer::unknown) found = carry_on(found, searched);
+  // Integers do not say when a pair touches again that touched before `from`.
+  if (exact.answer == Answer::unknown || (exact.answer == Answer::yes && from > 0))
+    found = carry_on(found, searched);
   if (found.verdict == Verdict::free) return std::nullopt;
   if (exact.answer == Answer::unknown) exact = decide_exactly(found, from);
   if (exact.answer == Answer::no) return std::nullopt;
@@ -62,10 +64,7 @@ KernelResult PairDecision::push_on(KernelResult r) const {
   const double wanted = (r.separation + 0.5 * r.delta) * (1 + 0x1p-49);
   bool patient = false;
   for (int rounds = 0; rounds < 64 && r.verdict == Verdict::stalled; ++rounds) {
-    if (r.checks >= pairs_.max_checks) {
-      r.verdict = Verdict::max_checks;
-      return r;
-    }
+    ONSET_ASSERT(r.checks < pairs_.max_checks);  // or the verdict would be that
     const double t = certify_interval(corners(), r.t, wanted, pairs_.maximum_norm);
     ++r.checks;
     if (t >= 1) {

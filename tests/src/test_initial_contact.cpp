@@ -136,3 +136,26 @@ TEST_CASE("a pair that parts and is met again later limits the step there", "[un
   REQUIRE(r.limiting);
   CHECK(r.limiting->b == 1);
 }
+
+// The vertex leaves a corner of the face, whose other corners swing after it and rise by `rise`.
+TEST_CASE("what parts from a touch and is met again is decided exactly, too", "[unit]") {
+  const auto limit = [](double rise, Exactness exactness) {
+    const VertexFaceQuery q{{{{0, 0, 0}, {0, 0, 0}, {1, -1, -1}, {1, 1, 1}}},
+                            {{{-1, 0, .125}, {0, 0, 0}, {-3, -1, -1 + rise}, {-3, 1, 1 + rise}}}};
+    Options o;
+    o.touching_may_pass_through = true;
+    o.exactness = exactness;
+    const QueryResult r = vertex_face_ccd(q, o);
+    CHECK(r.outcome == PairOutcome::initial_separating);
+    return r.step_limit;
+  };
+  for (const Exactness level : {Exactness::conservative, Exactness::certify, Exactness::exact}) {
+    CAPTURE(int(level));
+    CHECK((limit(.25, level) <= .5 && limit(.25, level) > .499));
+    CHECK(limit(.0625, level) == INFINITY);
+    CHECK(limit(.375, level) <= 1);
+  }
+  const double nearly = .375 + 0x1p-50;  // they would meet just after the step
+  CHECK(limit(nearly, Exactness::conservative) <= 1);
+  CHECK(limit(nearly, Exactness::exact) == INFINITY);
+}
