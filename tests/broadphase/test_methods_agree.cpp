@@ -145,6 +145,34 @@ TEST_CASE("every method agrees with brute force for every small number of primit
   }
 }
 
+// A hash sorts the members of such a cell by digits, not by comparing.
+TEST_CASE("every method finds the same where most primitives are in two cells", "[property]") {
+  scenes::Random random(43);
+  constexpr int kShort = 40000, kLong = 400;  // the long ones make the cells
+  Soup soup;
+  soup.mesh.num_vertices = 2 * (kShort + kLong);
+  const auto add = [&](double x, double length, double y) {
+    const int v = int(soup.x_t0.size()) / 3;
+    soup.mesh.edges.push_back({v, v + 1});
+    for (const double c : {x, y, 0.0, x + length, y, 0.0}) soup.x_t0.push_back(c);
+  };
+  for (int i = 0; i < kShort; ++i) add(scenes::uniform(random, -0.5, 0.5), 0x1p-20, 0);
+  for (int i = 0; i < kLong; ++i) add(-50, 100, 0x1p-7 * i);  // the first meets all short ones
+  soup.x_t1 = soup.x_t0;
+  const Motion motion = soup.motion();
+  IdPairs reference;
+  for (const Method& m : methods()) {
+    BroadPhaseInput input{soup.mesh, motion};
+    input.instruction_set = m.instruction_set;
+    const auto phase = make_broad_phase(m.method, input);
+    const IdPairs found = candidates(*phase, PairKind::edge_edge);
+    INFO(m.name);
+    if (reference.empty()) reference = found;
+    CHECK(found.size() > kShort + 500);
+    CHECK((found == reference));
+  }
+}
+
 TEST_CASE("no method finds anything where a position is not finite", "[unit]") {
   scenes::Random random(5);
   Soup soup = scattered("not finite", 20, 1, 1, random);
