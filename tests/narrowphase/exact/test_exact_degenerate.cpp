@@ -1,5 +1,7 @@
 // Zeros in integers of fixed width, against integers of any size: quadratics that vanish at a cubic's root,
 // motion in one plane or on one line.
+#include <cmath>
+
 #include "narrowphase/exact/common_root.hpp"
 #include "narrowphase/exact/complete.hpp"
 #include "narrowphase/exact/coplanar.hpp"
@@ -193,4 +195,24 @@ TEST_CASE("contact on the boundary, at a time that is no double, is certain with
   Query miss = hit;
   miss.t0[0][0] = miss.t1[0][0] = -0x1p-50;
   CHECK(exact_answer(scenes::exact_pair(miss), Effort::quick).answer == Answer::no);
+}
+
+// A vertex at 2^-52 from an edge as long, on the way to it by 2^52 a step: 2^-104 of the step. Doubles beside
+// that have more bits than the integers of fixed width have room for.
+TEST_CASE("motion in one plane: a contact after 2^-104 of the step", "[unit]") {
+  for (const double hidden : {1.0, 3.0}) {
+    Query query{PairKind::vertex_face, {}, {}};
+    query.t0 = {{{1, 0, 0}, {0, 0, 0}, {0x1p52, 1, 0}, {0, 0x1p52, 0}}};
+    query.t1 = query.t0;
+    query.t1[0][1] += hidden * 0x1p52;
+    const auto time = exact_first_contact(scenes::exact_pair(query)),
+               complete = complete_first_contact(scenes::exact_pair(query));
+    CAPTURE(hidden);
+    REQUIRE((time && complete));
+    CHECK((time->lo == complete->lo && time->hi == complete->hi));
+    CHECK((time->lo <= 0x1p-104 / hidden && time->hi >= 0x1p-104 / hidden));
+    CHECK(time->hi <= std::nextafter(time->lo, 1));
+    query.t1[0][1] = -0x1p52;  // and away
+    CHECK_FALSE(exact_first_contact(scenes::exact_pair(query)));
+  }
 }
