@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <onset/onset.hpp>
 
+#include "src/start/places.hpp"
+#include "tests/asks.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle/distance.hpp"
 #include "tests/oracle/oracle.hpp"
@@ -262,6 +264,45 @@ TEST_CASE("a start within its separation is not acceptable, though nothing touch
   const StartReport near = check(mesh, x, o);
   CHECK((near.outcome == Outcome::free && near.intersections.empty() && near.touching.empty()));
   CHECK((!near.within_separation.empty() && !near.acceptable()));
+}
+
+TEST_CASE("among many vertices only those at one place are copies", "[unit]") {
+  // So many places have some numbers twice that sort them, whichever axis tells them apart.
+  constexpr int kCount = 250000;
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(kCount, 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    x.setZero();
+    x.col(axis) = Eigen::VectorXd::LinSpaced(kCount, 1, kCount);
+    CHECK(duplicate_vertices(x).empty());
+    x(kCount - 1, axis) = 7;
+    CHECK((duplicate_vertices(x) == std::vector<std::array<int, 2>>{{6, kCount - 1}}));
+  }
+  CHECK_THROWS_WITH(duplicate_vertices(x.leftCols(2)), "x has 2 columns, not 3");
+
+  // It can be stopped wherever it asks, in every round over the vertices.
+  x.bottomRows(kCount / 2) = x.topRows(kCount / 2);
+  tests::Asks all;
+  REQUIRE(shared_places(x, all.stop()).size() == kCount / 2);
+  CHECK(all.count >= 5 * (kCount / std::int64_t(kItemsALook)));
+  for (std::int64_t n = 0; n < all.count; n += 1 + n / 8) {
+    tests::Asks some(n);
+    CHECK(shared_places(x, some.stop()).empty());
+    CHECK(some.count == n + 1);
+  }
+}
+
+TEST_CASE("points are named as the vertices that they are", "[unit]") {
+  Eigen::MatrixXd x(6, 3);
+  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 0, 3, 0, 0, 9, 9, 9;
+  const Eigen::MatrixXi F = (Eigen::MatrixXi(1, 3) << 0, 1, 2).finished();
+  Mesh mesh(x, F);
+  set_rule(mesh, &CollisionRules::points, {3, 4, 5});
+  const StartReport report = check(mesh, x);
+  CHECK(says(report, StartFault::touching, "vertex 3 and face 0 (vertices 0, 1 and 2)"));
+  x(3, 2) = 1;  // now only the one on the edge touches
+  x(4, 2) = 0;
+  CHECK(says(check(mesh, x), StartFault::touching, "vertex 4"));
 }
 
 TEST_CASE("a start that cannot be looked at, or not to the end, is not acceptable", "[unit]") {
