@@ -306,12 +306,18 @@ TEST_CASE("listed pairs are checked", "[unit]") {
   c.vertex_face = {{3, 0}};
   c.edge_edge = {{3, 0}};  // in either order
   CHECK(onset::compute_collision_free_stepsize(mesh, c, x, x).step == 1);
-  c.vertex_face = {{3, 0}, {6, 0}};
-  CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, c, x, x), std::invalid_argument);
+  for (const auto& wrong : {std::array<int, 2>{6, 0}, {-1, 0}, {3, 2}, {3, -1}}) {
+    c.vertex_face = {{3, 0}, wrong};
+    CHECK_THROWS_WITH(onset::compute_collision_free_stepsize(mesh, c, x, x),
+                      Catch::Contains("vertex_face row 1: the mesh has no pair " + std::to_string(wrong[0])));
+  }
   c.vertex_face = {{0, 0}};
   CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, c, x, x), std::invalid_argument);
   c.vertex_face = {};
-  c.edge_edge = {{0, 1}};
-  CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, c, x, x), std::invalid_argument);
+  for (const auto& wrong : {std::array<int, 2>{0, 1}, {0, 2}, {1, 2}}) {
+    c.edge_edge = {wrong};
+    CHECK_THROWS_WITH(onset::compute_collision_free_stepsize(mesh, c, x, x),
+                      Catch::Contains("edge_edge row 0: the two share vertex"));
+  }
   CHECK_THROWS_AS(onset::compute_collision_free_stepsize(mesh, {}, x, x, {}, 1), std::invalid_argument);
 }

@@ -95,6 +95,7 @@ TEST_CASE("full vertices out of range or repeated are named by row", "[unit]") {
   CHECK_THROWS_WITH(mesh.set_full_vertices({2, 2, 2, 2}, 30),
                     Catch::Contains("full vertices row 1") && Catch::Contains("repeated"));
   CHECK_THROWS_WITH(mesh.set_full_vertices({0, 1, 2, 30}, 30), Catch::Contains("full vertices row 3"));
+  CHECK_THROWS_WITH(mesh.set_full_vertices({0, -1, 2, 3}, 30), Catch::Contains("full vertices row 1"));
   CHECK_THROWS_WITH(mesh.set_full_vertices({0}, 30), Catch::Contains("1 values for 4 vertices"));
   CHECK((mesh.num_full_vertices() == 4 && mesh.full_vertex(3) == 3));
 }
@@ -115,6 +116,7 @@ TEST_CASE("ids and degrees of freedom map to the full mesh", "[unit]") {
   CHECK(surface[3] == full(9, 0));
   CHECK(surface[11] == full(7, 2));
   CHECK_THROWS_AS(mesh.surface_positions(full.topRows(4)), std::invalid_argument);
+  CHECK_THROWS_AS(mesh.surface_positions(full.leftCols(2)), std::invalid_argument);
   CHECK_THROWS_WITH(compute_collision_free_stepsize(mesh, full, full),
                     Catch::Contains("full mesh") && Catch::Contains("surface_positions"));
 }

@@ -154,6 +154,8 @@ TEST_CASE("bad topology is named by its row", "[unit]") {
   E << 0, 1, 2, 3;
   CHECK(names(message_of([&] { Mesh(x, E, Eigen::MatrixXi::Zero(2, 4)); }), {"face", "4"}));
   CHECK(names(message_of([&] { Mesh(x, F, F); }), {"edge", "3"}));
+  for (const std::ptrdiff_t count : {std::ptrdiff_t(-1), std::ptrdiff_t(1) << 31})
+    CHECK(message_of([&] { Mesh(count, F); }) == "a mesh cannot have " + std::to_string(count) + " vertices");
 }
 
 TEST_CASE("bad thickness is named by its row", "[unit]") {
@@ -174,6 +176,7 @@ TEST_CASE("positions of too few columns are not read past, and options out of th
   Calls c;
   const Eigen::MatrixXd thin = Eigen::MatrixXd::Zero(8, 2), dx = Eigen::MatrixXd::Zero(8, 3);
   CHECK(names(message_of([&] { LineSearch(c.mesh, thin, dx); }), {"x_t0", "8", "2"}));
+  CHECK(names(message_of([&] { LineSearch(c.mesh, dx, thin); }), {"dx", "8", "2"}));
   CHECK(names(message_of([&] { edge_list(Eigen::MatrixXi::Zero(2, 4)); }), {"faces", "4"}));
   const auto with = [&](auto set) {
     Options options;

@@ -2,6 +2,7 @@
 #include "tests/catch.hpp"
 #include "tests/narrowphase/exact/exact_pair.hpp"
 #include "tests/oracle/oracle.hpp"
+#include "tests/scenes/rules.hpp"
 #include "tests/src/support/mesh_pairs.hpp"
 #include "tests/src/support/scene_set.hpp"
 
@@ -194,4 +195,39 @@ TEST_CASE("close pairs of another mesh are rejected", "[unit]") {
   CHECK_THROWS_AS(safe_distances(a.mesh(), a.scene.x_t0, close), std::invalid_argument);
   CHECK_THROWS_AS(compute_cfl_stepsize(a.mesh(), a.scene.x_t0, a.scene.x_t1, close), std::invalid_argument);
   CHECK_THROWS_AS(safe_distances(b.mesh(), b.scene.x_t0, ClosePairs{}), std::invalid_argument);
+  CHECK_THROWS_AS(safe_distances(b.mesh(), b.scene.x_t0.leftCols(2), close), std::invalid_argument);
+  ClosePairs wrong = close;
+  wrong.outcome = Outcome::out_of_time;
+  CHECK_THROWS_WITH(safe_distances(b.mesh(), b.scene.x_t0, wrong),
+                    "the close pairs have the outcome out_of_time");
+  const ClosePair first = close.pairs.front();
+  const bool face = first.kind == PairKind::vertex_face;
+  const int firsts = int(face ? b.mesh().num_vertices() : b.mesh().num_edges()),
+            seconds = int(face ? b.mesh().num_faces() : b.mesh().num_edges());
+  for (const auto& [pair_a, pair_b] :
+       {std::pair{-1, first.b}, {firsts, first.b}, {first.a, -1}, {first.a, seconds}}) {
+    wrong = close;
+    wrong.pairs.front().a = pair_a, wrong.pairs.front().b = pair_b;
+    CHECK_THROWS_WITH(safe_distances(b.mesh(), b.scene.x_t0, wrong),
+                      "close pair 0 is not a pair of this mesh");
+  }
+}
+
+TEST_CASE("a CFL step minds the rules of its mesh, and what is not finite", "[unit]") {
+  Eigen::MatrixXd x(6, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, .2, .2, .5, 1.2, .2, .6, .2, 1.2, .7;
+  Mesh mesh(x, Eigen::MatrixXi((Eigen::MatrixXi(2, 3) << 0, 1, 2, 3, 4, 5).finished()));
+  Eigen::MatrixXd there = x;
+  there.col(2).tail(3).array() -= 1;
+  const ClosePairs close = close_pairs(mesh, x, 4);
+  REQUIRE(compute_cfl_stepsize(mesh, x, there, close).outcome == Outcome::contact);
+  Eigen::MatrixXd nowhere = there;
+  nowhere(4, 1) = NAN;
+  const StepResult lost = compute_cfl_stepsize(mesh, x, nowhere, close);
+  CHECK((lost.outcome == Outcome::non_finite && lost.vertex == 4 && lost.step == 0));
+  CHECK(safe_step(safe_distances(mesh, x, close), nowhere - x) == 0);
+  scenes::set_rule(mesh, &CollisionRules::bodies, {0, 0, 0, 1, 1, 1});
+  scenes::set_rule(mesh, &CollisionRules::excluded_bodies, {{0, 1}});
+  const StepResult free = compute_cfl_stepsize(mesh, x, there, close);
+  CHECK((free.outcome == Outcome::free && free.step == 1));
 }
