@@ -93,7 +93,8 @@ TEST_CASE("where no thread is to be had a call says so, and may be made again", 
     return;
   }
   constexpr int kSide = 12;  // so few edges are sorted by one thread
-  scenes::Scene cloth = scenes::joined(scenes::translated(scenes::cloth(kSide, kSide), {0, 0, 0.1}), scenes::cloth(kSide, kSide));
+  scenes::Scene cloth = scenes::joined(scenes::translated(scenes::cloth(kSide, kSide), {0, 0, 0.1}),
+                                       scenes::cloth(kSide, kSide));
   cloth.x_t1.topRows(kSide * kSide).col(2).array() -= 0.2;
   const Eigen::MatrixXi spheres = scenes::sphere_onto_sphere(24, 36, 0.01, 0.2).faces;
   const Mesh mesh(cloth.x_t0, cloth.faces);

@@ -50,6 +50,7 @@ void ask_surfaces(const Mesh&, const Subject& s, const Options&, Answer& a) {
           unsigned_zeros(mesh.map_displacements(full)));
     a.add(mesh.to_full_dof(Eigen::VectorXd(Eigen::VectorXd::Ones(Eigen::Index(mesh.ndof())))));
     a.add(Eigen::MatrixXd(mesh.to_full_dof(identity(Eigen::Index(mesh.ndof()))).diagonal()));
+    mesh.require_surface(mesh.rest_positions());
     a.add(mesh.onset_mesh().num_edges());
   };
   add(surface_of(s, more), more);
