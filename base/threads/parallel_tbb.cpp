@@ -37,9 +37,11 @@ class LentArena {
     else
       mine_.splice(mine_.begin(), *home_, home_->begin());
   }
-  ~LentArena() {  // a splice allocates nothing, so it cannot fail
+  // A splice allocates nothing, so it cannot fail. An arena for which there was no memory would keep its next
+  // user waiting for ever.
+  ~LentArena() {
     const std::lock_guard<std::mutex> lock(idle_arenas().mutex);
-    home_->splice(home_->begin(), mine_);
+    if (mine_.front().is_active()) home_->splice(home_->begin(), mine_);
   }
   LentArena(const LentArena&) = delete;
   LentArena& operator=(const LentArena&) = delete;
