@@ -42,6 +42,8 @@ struct LineSearch::Impl {
   Mesh mesh;
   LineSearchOptions options;
   double rounding = 0;
+  // Whether there is a d_hat: not asked where a host may take subnormal numbers for 0.
+  bool lists_close = false;
   std::unique_ptr<StepSetup> setup;  // keeps its tree only where the lists do not fit
   std::vector<double> dx;            // 3 #V as the caller gave it; empty without a distance set
   StepResult start;      // statistics of the broad phase; outcome and vertex of an unusable motion
@@ -88,15 +90,15 @@ LineSearch::LineSearch() noexcept = default;
 
 LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx,
                        const LineSearchOptions& options)
-    : impl_(new Impl{mesh, options, 0, {}, {}, {}, {}, {}}) {
+    : impl_(new Impl{mesh, options, 0, false, {}, {}, {}, {}, {}}) {
   check(options);
   check_d_hat(options.d_hat, true);
   check_gap_share(options.gap_share);
   const std::vector<double> x_t1 = in_float_environment(sum, x_t0, dx);
   Impl& h = *impl_;
   in_arena(options.threads, [&] {
-    // A host that takes subnormal numbers for 0 is not to decide this.
-    for (std::ptrdiff_t i = 0; options.d_hat > 0 && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
+    h.lists_close = options.d_hat > 0;
+    for (std::ptrdiff_t i = 0; h.lists_close && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
     const Positions end(x_t1.data(), x_t0.rows());
     Budget budget(h.options);
     h.setup = std::make_unique<StepSetup>(h.mesh, x_t0, end, h.options, StepSetup::Use::stored_step,
@@ -153,8 +155,7 @@ LineSearchStep LineSearch::largest_step(double upper) const {
 ClosePairs LineSearch::close_pairs(double step) const {
   in_float_environment(check_step, "step", step);
   const Impl& h = impl();
-  if (in_float_environment([&] { return h.options.d_hat == 0; }))
-    throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
+  if (!h.lists_close) throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
   ClosePairs r;
   r.d_hat = h.options.d_hat;
   r.outcome = h.start.outcome;

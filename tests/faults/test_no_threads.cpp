@@ -24,8 +24,8 @@ using namespace onset;
 
 namespace {
 
-bool none_left = false;
-int refused = 0;
+[[maybe_unused]] bool none_left = false;
+[[maybe_unused]] int refused = 0;
 
 }  // namespace
 
@@ -77,9 +77,9 @@ bool in_new_process(const F& f) {
 }
 
 #ifdef ONSET_TEST_ONETBB
-constexpr Said kExpected = Said::no_thread;
+[[maybe_unused]] constexpr Said kExpected = Said::no_thread;
 #else
-constexpr Said kExpected = Said::answer;  // on fewer threads
+[[maybe_unused]] constexpr Said kExpected = Said::answer;  // on fewer threads
 #endif
 
 }  // namespace
