@@ -17,8 +17,14 @@ class FloatEnvironment {
   FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
 #if defined(__SSE2__)
-  FloatEnvironment() : host_(__builtin_ia32_stmxcsr()) { __builtin_ia32_ldmxcsr(0x1f80); }
-  ~FloatEnvironment() { __builtin_ia32_ldmxcsr(host_); }
+  FloatEnvironment() : host_(__builtin_ia32_stmxcsr()) {
+    __builtin_ia32_ldmxcsr(0x1f80);
+    asm volatile("" ::: "memory");  // what is read afterwards is not computed with before
+  }
+  ~FloatEnvironment() {
+    asm volatile("" ::: "memory");
+    __builtin_ia32_ldmxcsr(host_);
+  }
 
  private:
   unsigned host_;
@@ -26,10 +32,10 @@ class FloatEnvironment {
   FloatEnvironment() {
     asm volatile("mrs %0, fpcr" : "=r"(host_));
     asm volatile("mrs %0, fpsr" : "=r"(flags_));
-    asm volatile("msr fpcr, %0" ::"r"(0ul));
+    asm volatile("msr fpcr, %0" ::"r"(0ul) : "memory");
   }
   ~FloatEnvironment() {
-    asm volatile("msr fpcr, %0" ::"r"(host_));
+    asm volatile("msr fpcr, %0" ::"r"(host_) : "memory");
     asm volatile("msr fpsr, %0" ::"r"(flags_));
   }
 
