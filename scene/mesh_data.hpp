@@ -7,11 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "onset/collision_rules.hpp"
 #include "scene/static_cache.hpp"
 
 namespace onset {
 
-struct CollisionRules;   // onset/collision_rules.hpp
+struct MeshPlanes;       // scene/planes.hpp
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
 
 // Returns the filter of a mesh without rules: see MeshData::filter.
@@ -40,6 +41,10 @@ struct MeshData {
   // By kind; ids as in IdPair, sorted, each once.
   std::array<std::vector<std::array<int, 2>>, 3> excluded_pairs;
 
+  // As the rules have them, and {vertex, plane} of those named one by one, sorted, each once.
+  std::vector<Plane> planes;
+  std::vector<std::array<int, 2>> excluded_planes;
+
   // The rules as they were given; null in the mesh of a single query.
   std::shared_ptr<const CollisionRules> rules;
 
@@ -50,6 +55,8 @@ struct MeshData {
   // What finish_mesh makes of all this. Never null: at first every primitive takes part, moves, and may meet
   // all that it shares no vertex with.
   std::shared_ptr<const PrimitiveFilter> filter = all_primitives();
+  // Null where there is no plane.
+  std::shared_ptr<const MeshPlanes> mesh_planes;
   // Not null where the filter has static primitives.
   std::shared_ptr<StaticCache> static_cache;
   // Not null after finish_mesh.

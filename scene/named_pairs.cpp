@@ -22,8 +22,12 @@ void NamedPairs::check_id(Primitive kind, int id) const {
 void NamedPairs::add(PairKind kind, int a, int b) {
   if (std::find(kinds_.begin(), kinds_.end(), kind) == kinds_.end())
     reject("kind " + std::to_string(int(kind)) + " is no kind of pair");
-  check_id(first_primitive(kind), a);
-  check_id(second_primitive(kind), b);
+  check_id(kind == PairKind::vertex_plane ? Primitive::vertex : first_primitive(kind), a);
+  if (kind != PairKind::vertex_plane)
+    check_id(second_primitive(kind), b);
+  else if (b < 0 || std::size_t(b) >= mesh_.planes.size())
+    reject("plane " + std::to_string(b) + " is out of range, there are " +
+           std::to_string(mesh_.planes.size()) + " planes");
   if (kind == PairKind::edge_edge && a == b) reject("edge " + std::to_string(a) + " is repeated");
   if (kind == PairKind::edge_edge && a > b) std::swap(a, b);
   pairs_[std::size_t(kind)].push_back({a, b});

@@ -24,6 +24,7 @@ inline void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) 
   }
 }
 inline std::array<int, 4> pair_vertices(const MeshData& mesh, PairKind kind, IdPair p) {
+  if (kind == PairKind::vertex_plane) return {p.a, -1, -1, -1};
   std::array<int, 4> v;
   put_vertices(mesh, kind, p, v.data());
   return v;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/filter_counts.hpp"
+#include "scene/planes.hpp"
 #include "scene/static_cache.hpp"
 
 namespace onset {
@@ -138,6 +139,7 @@ void finish_mesh(MeshData& mesh) {
   for (std::size_t v = 0; v < mesh.is_static.size(); ++v)
     (mesh.is_static[v] ? filter->static_ids : filter->free_ids).push_back(int(v));
   mesh.static_cache = filter->has_static() ? std::make_shared<StaticCache>() : nullptr;
+  mesh.mesh_planes = make_planes(mesh);
   mesh.broad_phases = std::make_shared<BroadPhasePool>();
   mesh.filter = std::move(filter);
 }

@@ -115,11 +115,23 @@ void apply_groups(const CollisionRules& rules, MeshData& data) {
   data.group = rules.groups, data.mask = rules.masks;
 }
 
+void apply_planes(const std::vector<Plane>& planes, MeshData& data) {
+  for (std::size_t r = 0; r < planes.size(); ++r) {
+    const auto& n = planes[r].normal;
+    for (const double x : n)
+      if (!std::isfinite(x)) reject_row("planes", std::ptrdiff_t(r), "its normal is not finite");
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0) reject_row("planes", std::ptrdiff_t(r), "its normal is 0");
+    if (!std::isfinite(planes[r].offset)) reject_row("planes", std::ptrdiff_t(r), "its offset is not finite");
+  }
+  data.planes = planes;
+}
+
 void apply_pairs(const CollisionRules& rules, MeshData& data) {
   const std::vector<PairKind> kinds{PairKind::vertex_face, PairKind::edge_edge};
-  NamedPairs pairs("excluded_pairs", data, kinds);
+  NamedPairs pairs("excluded_pairs", data, {kinds[0], kinds[1], PairKind::vertex_plane});
   for (const Pair& p : rules.excluded_pairs) pairs.add(p.kind, p.a, p.b);
   for (const PairKind kind : kinds) data.excluded_pairs[std::size_t(kind)] = pairs.of(kind);
+  data.excluded_planes = pairs.of(PairKind::vertex_plane);
   NamedPairs intersections("excluded_intersections", data, {kEdgeFace});
   for (const Intersection& p : rules.excluded_intersections) intersections.add(kEdgeFace, p.edge, p.face);
   data.excluded_pairs[std::size_t(kEdgeFace)] = intersections.of(kEdgeFace);
@@ -138,6 +150,7 @@ void apply_rules(const CollisionRules& rules, MeshData& data) {
   apply_groups(rules, data);
   data.weld = rules.weld;
   data.excluded_vertices = checked_pairs("excluded_vertices", rules.excluded_vertices, data.num_vertices);
+  apply_planes(rules.planes, data);
   apply_pairs(rules, data);
 }
 

@@ -43,11 +43,12 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     set.outcome = setup.motion.status;
     set.vertex = setup.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;
+    set.planes = mesh.data().planes;
     TraversalResult traversal = find_contacts(mesh, setup, options, Collect::all, budget, set.stats);
     const double begun = setup.clock.seconds();
     note_worst(mesh, traversal, set.stats);
     cut_off(traversal.found, options, budget, set);
-    fill_contacts(mesh, setup.motion, options.instruction_set, traversal.found, budget.interruption(), set);
+    fill_contacts(mesh, setup.motion, options, traversal.found, budget.interruption(), set);
     if (budget.outcome() != Outcome::free) {
       set.outcome = budget.outcome();
       set.complete_until = 0;

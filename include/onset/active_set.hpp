@@ -22,6 +22,8 @@ struct ActiveSet {
   // call that time or the caller ended puts no more in order than a few milliseconds allow.
   double complete_until = 0;
   Stats stats;
+  // Those of the mesh (CollisionRules::planes), which contacts of kind vertex_plane name by row.
+  std::vector<Plane> planes;
 
   std::size_t size() const noexcept { return contacts.size(); }
   bool empty() const noexcept { return contacts.empty(); }

@@ -10,6 +10,18 @@
 
 namespace onset {
 
+// A half-space that vertices stay out of: x is free where normal . x > offset, in exact arithmetic for the
+// stored doubles. It stands still.
+struct Plane {
+  // Towards the free side; of any length > 0, finite. Its length is taken into account where distances are
+  // measured, without an error.
+  std::array<double, 3> normal{0, 0, 1};
+  // normal . x of the points of the plane, finite.
+  double offset = 0;
+  // Bits as CollisionRules::groups and masks have them; a plane meets every vertex by default.
+  std::uint32_t group = ~0u, mask = ~0u;
+};
+
 // What is left empty does not matter; the order in which fields are filled does not either. A mesh checks all
 // of it at once (Mesh::set_rules). A pair is left out of every call, and named by none, where any of the
 // rules says so; the primitives left with no partner get no box.
@@ -53,6 +65,11 @@ struct CollisionRules {
   // Vertices that count as one wherever they are, as copies that drift apart: #pairs x 2, different ids.
   // duplicate_vertices() finds them.
   std::vector<std::array<int, 2>> excluded_vertices;
+
+  // Planes, each of which meets every vertex, but for static ones and what groups, masks and excluded_pairs
+  // leave out; bodies and welds do not matter. What a mesh has behind a plane at the start blocks steps as
+  // what touches does. Edges and faces are beyond a plane where their vertices are.
+  std::vector<Plane> planes;
 
   // These very pairs, in every call and at any distance: they may pass through each other from now on. Such
   // as those that check() finds touching at the start. `vertices` are not looked at.

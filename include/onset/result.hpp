@@ -11,22 +11,24 @@
 
 namespace onset {
 
-enum class PairKind : std::uint8_t { vertex_face, edge_edge };
+// In this order wherever pairs are put in order.
+enum class PairKind : std::uint8_t { vertex_face = 0, edge_edge = 1, vertex_plane = 4 };
 ONSET_API const char* to_string(PairKind kind) noexcept;
 
 // One pair of primitives.
 struct Pair {
   PairKind kind = PairKind::vertex_face;
-  // vertex_face: a is the vertex, b the face. edge_edge: edges, a < b.
+  // vertex_face: a is the vertex, b the face. edge_edge: edges, a < b. vertex_plane: a is the vertex, b the
+  // row of CollisionRules::planes.
   int a = -1, b = -1;
   // vertex_face: v, f0, f1, f2. edge_edge: a0, a1, b0, b1; a point (CollisionRules::points) has the same
-  // twice.
+  // twice. vertex_plane: v, -1, -1, -1.
   std::array<int, 4> vertices{-1, -1, -1, -1};
 };
 
 struct PairCounts {
-  std::int64_t vertex_face = 0, edge_edge = 0;
-  std::int64_t total() const noexcept { return vertex_face + edge_edge; }
+  std::int64_t vertex_face = 0, edge_edge = 0, vertex_plane = 0;
+  std::int64_t total() const noexcept { return vertex_face + edge_edge + vertex_plane; }
 };
 
 // How one pair ended.
@@ -90,6 +92,10 @@ ONSET_API const char* to_string(Certainty certainty) noexcept;
 
 // A pair that is not certified free on a step, where and how it touches. Times are in [0, 1], in units of the
 // step; lengths in model length.
+//
+// Of a vertex and a plane all is decided exactly, with a separation too: toi and toi_hi are adjacent doubles
+// or one double at every level of Options::exactness, outcome and certainty are as exact arithmetic has them,
+// tolerance is 0. The plane is a closed half-space: a vertex on it or behind it touches, with gap 0.
 struct Contact : Pair {
   // Certified: the pair is apart on [0, toi). Never later than the exact time. Infinite where it is free.
   double toi = INFINITY;
@@ -117,7 +123,8 @@ struct Contact : Pair {
   // The closest points at toi, p1 of the first primitive and p2 of the second, as weights of the four
   // `vertices`: p1 - p2 = sum_k weights[k] x[vertices[k]], linear in the positions at any time. Clamped to
   // the primitives, multiples of 2^-52; the first side's sum to 1, the second's to -1. Where several points
-  // are as close, as of parallel edges, any of them.
+  // are as close, as of parallel edges, any of them. vertex_plane: 1, 0, 0, 0, and p2 is
+  // the point of the half-space that is closest to p1.
   std::array<double, 4> weights{};
   // Unit, from p2 to p1 as the exact closest points lie, however close: where the first primitive came from.
   // Where the two touch inside both primitives: the normal of the face, or of both edges, on the side that

@@ -49,7 +49,7 @@ constexpr double kRounding = 0x1p-50, kWidest = 0x1.8p-48;  // 8u, 48u
 // Finds all in doubles. Returns false where they do not tell: for ties, thin primitives, and pairs that may
 // touch.
 bool find(const Differences<double>& d, double blur, ClosestPoints& r, Bounds& bounds) {
-  const Plane<double> plane(d);
+  const PairPlane<double> plane(d);
   Nearest<double> nearest;
   nearest.inside = plane.resolved && foot_on_plane(d, plane, nearest);
   if (nearest.inside) {
@@ -86,7 +86,7 @@ VecOf<DoubleDouble> unit(const VecOf<DoubleDouble>& n) {
 void find_precisely(const Differences<DoubleDouble>& d, double rho, double blur, ClosestPoints& r,
                     Bounds& bounds) {
   using V = VecOf<DoubleDouble>;
-  const Plane<DoubleDouble> plane(d);
+  const PairPlane<DoubleDouble> plane(d);
   const auto towards = [&](const V& n) { return dot(n, d.q).hi < 0 ? DoubleDouble(-1.0) * n : n; };
   Nearest<DoubleDouble> nearest;
   nearest.inside = plane.resolved && foot_on_plane(d, plane, nearest);

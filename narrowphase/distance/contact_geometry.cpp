@@ -96,7 +96,7 @@ class Touching {
   const ExactPair& pair_;
   const Differences<DoubleDouble>& d_;
   const ClosestPoints& near_;
-  const Plane<DoubleDouble> plane_;
+  const PairPlane<DoubleDouble> plane_;
   const double size_;
   const Vec past_;
   const double t_;

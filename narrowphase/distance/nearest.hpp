@@ -44,13 +44,13 @@ struct Precision<DoubleDouble> {
 // The plane of a and b by Gram-Schmidt from the longer one, twice: `across` is then as exact as the other
 // edge, however thin the primitive is.
 template <class T>
-struct Plane {
+struct PairPlane {
   bool swapped = false;        // b is the longer one
   bool resolved = false;       // its width is more than `thinnest` of its length
   VecOf<T> along{}, across{};  // the longer edge, and the other's part across it
   T length2{}, width2{}, share{};
 
-  explicit Plane(const Differences<T>& d) {
+  explicit PairPlane(const Differences<T>& d) {
     const T aa = dot(d.a, d.a), bb = dot(d.b, d.b);
     swapped = bb > aa;
     length2 = swapped ? bb : aa;
@@ -79,7 +79,7 @@ struct Nearest {
 // Finds the plane's nearest point; false: outside. The second round takes back what the first lost to a thin
 // primitive.
 template <class T>
-bool foot_on_plane(const Differences<T>& d, const Plane<T>& plane, Nearest<T>& r) {
+bool foot_on_plane(const Differences<T>& d, const PairPlane<T>& plane, Nearest<T>& r) {
   const VecOf<T>& other = plane.swapped ? d.a : d.b;
   T x = 0.0, y = 0.0;
   VecOf<T> left = d.q;

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "narrowphase/distance/contact_geometry.hpp"
+#include "src/planes/plane_geometry.hpp"
 
 namespace onset {
 namespace {
@@ -38,13 +39,15 @@ void put(const ContactGeometry& geometry, Contact& contact) {
   contact.gap = geometry.gap, contact.speed = geometry.speed, contact.degenerate = geometry.degenerate;
 }
 
-void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instruction_set,
+void fill_contacts(const Mesh& mesh, const Motion& motion, const Options& options,
                    const std::vector<FoundPair>& found, const Stop& stop, ActiveSet& set) {
-  const auto is_of_face = [](const auto& pair) { return pair.kind == PairKind::vertex_face; };
-  const auto faces_of = [&](const auto& pairs) {
-    return std::size_t(std::partition_point(pairs.begin(), pairs.end(), is_of_face) - pairs.begin());
+  const auto up_to = [&](const auto& pairs, PairKind kind) {
+    return std::size_t(std::partition_point(pairs.begin(), pairs.end(),
+                                            [&](const auto& pair) { return pair.kind <= kind; }) -
+                       pairs.begin());
   };
-  const std::size_t faces = faces_of(found);
+  const std::size_t faces = up_to(found, PairKind::vertex_face), edges = up_to(found, PairKind::edge_edge);
+  const PlaneGeometries planes(mesh.data(), motion, options);
   set.contacts.reserve(found.size());
   while (set.size() < found.size() && !stop.requested()) {
     const std::size_t before = set.size();
@@ -57,14 +60,19 @@ void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instru
         put(found[i].result, contacts[i]);
       }
       while (first < last) {
-        const std::size_t end = std::min({first + kRowsAtOnce, last, first < faces ? faces : last});
-        fill_geometry(motion, instruction_set, contacts + first, contacts + end);
+        const std::size_t of_kind = first < faces ? faces : first < edges ? edges : last;
+        const std::size_t end = std::min({first + kRowsAtOnce, last, of_kind});
+        if (first < edges)
+          fill_geometry(motion, options.instruction_set, contacts + first, contacts + end);
+        else
+          planes.fill(contacts + first, contacts + end);
         first = end;
       }
     });
   }
-  const std::size_t done = faces_of(set.contacts);
-  set.stats.contacts = {std::int64_t(done), std::int64_t(set.size() - done)};
+  const std::size_t f = up_to(set.contacts, PairKind::vertex_face),
+                    e = up_to(set.contacts, PairKind::edge_edge);
+  set.stats.contacts = {std::int64_t(f), std::int64_t(e - f), std::int64_t(set.size() - e)};
 }
 
 }  // namespace onset

@@ -17,7 +17,7 @@ void put(const ContactGeometry& geometry, Contact& contact);
 
 // Makes contact i of `set` from found[i], which are sorted by `before`, and counts those of each kind. Where
 // it is stopped, only the first of these.
-void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instruction_set,
+void fill_contacts(const Mesh& mesh, const Motion& motion, const Options& options,
                    const std::vector<FoundPair>& found, const Stop& stop, ActiveSet& set);
 
 }  // namespace onset

@@ -6,6 +6,7 @@
 
 #include "broadphase/motion_box.hpp"
 #include "scene/primitive_filter.hpp"
+#include "src/planes/plane_contacts.hpp"
 
 namespace onset {
 namespace {
@@ -24,20 +25,23 @@ constexpr double kShrinksUpTo = 0.5;
 // the sample that ran out of checks bounds nothing, as its boxes need not meet by then.
 //
 // For a limiting pair, the result is then the first of the active set; what the sample found counts whatever
-// the boxes say. With a window, t_max is where the window of the first contact found ends.
+// the boxes say. With a window, t_max is where the window of the first contact found ends. `known` is such a
+// time already, that of a plane.
 double shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& narrow, const Options& options,
-                       Collect collect, Budget& budget, Limits& sampled) {
+                       Collect collect, double known, Budget& budget, Limits& sampled) {
   if (!narrow.uses_t_max()) return 1;
-  sampled =
-      traverse_pairs(*setup.broad, narrow, Collect::first, 1, budget, sampled_stride(*setup.broad)).limits;
-  if (!sampled.contact) return 1;
+  double t_max = std::min(known, 1.0);
+  sampled = traverse_pairs(*setup.broad, narrow, Collect::first, t_max, budget, sampled_stride(*setup.broad))
+                .limits;
+  if (!sampled.contact && known > 1) return 1;
   sampled.stored = sampled.clear = {};  // the second traversal finds them
-  const PairResult& first = sampled.contact->result;
-  if (first.outcome == PairOutcome::max_checks) return 1;
-  // Where times are exact, a contact between the same two doubles is as early: its boxes must meet too.
-  const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
-  const double t_max = collect == Collect::all ? latest_time(first) + options.window : limit;
-  if (t_max > kShrinksUpTo) return std::min(t_max, 1.0);
+  if (sampled.contact && sampled.contact->result.outcome != PairOutcome::max_checks) {
+    const PairResult& first = sampled.contact->result;
+    // Where times are exact, a contact between the same two doubles is as early: its boxes must meet too.
+    const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
+    t_max = std::min(t_max, collect == Collect::all ? latest_time(first) + options.window : limit);
+  }
+  if (t_max > kShrinksUpTo) return t_max;
   BroadPhaseInput shrunk = collect == Collect::all ? broad_phase_input(mesh.data(), setup.motion, options,
                                                                        setup.reach, t_max, BoxTest::both_ends)
                                                    : *setup.tree;
@@ -63,6 +67,25 @@ void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found, 
 TraversalBounds bounds(const Options& options) {
   const bool limited = options.memory_limit < std::numeric_limits<std::int64_t>::max();
   return {options.window, limited ? most_contacts(options) + 1 : std::numeric_limits<std::size_t>::max()};
+}
+
+// Returns until when pairs matter, by the contacts of planes; their times are exact.
+double t_max_of(const PlaneContacts& planes, const Options& options) {
+  double t_max = INFINITY;
+  if (planes.limits.contact) t_max = std::nextafter(planes.limits.contact->result.step_limit, 2);
+  for (const FoundPair& f : planes.found) t_max = std::min(t_max, latest_time(f.result) + options.window);
+  return t_max;
+}
+
+// Adds what was found of planes, which come last in order.
+void add_planes(const PlaneContacts& planes, std::size_t most, TraversalResult& traversal) {
+  traversal.limits.add(planes.limits);
+  std::vector<FoundPair>& found = traversal.found;
+  found.insert(found.end(), planes.found.begin(), planes.found.end());
+  if (planes.found.empty() || found.size() <= most) return;
+  std::nth_element(found.begin(), found.begin() + std::ptrdiff_t(most), found.end(), earlier);
+  found.resize(most);
+  std::sort(found.begin(), found.end(), before);
 }
 
 // Says whether a pair is a candidate of the whole step, as an active set has it.
@@ -98,16 +121,28 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
     input.rounding = setup.rounding;
     input.contacts = &contacts;
   }
+  const PlaneContacts planes = find_plane_contacts(
+      {mesh.data(), setup.motion, options, {collect == Collect::first, 0, options.touching_may_pass_through}},
+      collect, budget, limited.most);
+  TraversalResult traversal;
+  if (collect == Collect::any && planes.limits.contact) {
+    traversal.limits = planes.limits;
+    return traversal;
+  }
   const NarrowPhase narrow(input);
   const bool shrinks = collect == Collect::first || (collect == Collect::all && options.window < 1);
   Limits sampled;
-  const double t_max = shrinks ? shrink_to_t_max(mesh, setup, narrow, options, collect, budget, sampled) : 1;
+  const double known = shrinks ? t_max_of(planes, options) : INFINITY;
+  const double t_max =
+      shrinks ? shrink_to_t_max(mesh, setup, narrow, options, collect, known, budget, sampled) : 1;
   TraversalBounds limits = limited;
   if (t_max <= kShrinksUpTo) limits.whole = &*setup.tree;
-  TraversalResult traversal = traverse_pairs(*setup.broad, narrow, collect, t_max, budget, 1, limits);
+  traversal = traverse_pairs(*setup.broad, narrow, collect, t_max, budget, 1, limits);
   if (collect == Collect::first) traversal.limits.add(sampled);
   if (collect == Collect::all) sharpen_earliest(narrow, traversal.found, budget);
+  add_planes(planes, limited.most, traversal);
   copy_counts(traversal, stats);
+  add_counts(planes, stats);
   stats.seconds_narrow = setup.clock.seconds() - begun;
   stats.seconds_total = setup.clock.seconds();
   return traversal;

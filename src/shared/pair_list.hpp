@@ -23,7 +23,9 @@ class PairList final : public PairSource {
     return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_;
   }
   std::vector<IdPair>& of(PairKind kind) { return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_; }
-  PairCounts counts() const { return {std::int64_t(vertex_face_.size()), std::int64_t(edge_edge_.size())}; }
+  PairCounts counts() const {
+    return {std::int64_t(vertex_face_.size()), std::int64_t(edge_edge_.size()), 0};
+  }
 
  private:
   std::vector<IdPair> vertex_face_, edge_edge_;

@@ -254,7 +254,7 @@ NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, c
 
 void copy_counts(const TraversalResult& traversal, Stats& stats) {
   const auto both = [&](std::int64_t NarrowPhaseStats::*field) {
-    return PairCounts{traversal.vertex_face.*field, traversal.edge_edge.*field};
+    return PairCounts{traversal.vertex_face.*field, traversal.edge_edge.*field, 0};
   };
   stats.candidates = both(&NarrowPhaseStats::candidates);
   stats.after_culls = both(&NarrowPhaseStats::after_culls);

@@ -1,0 +1,75 @@
+// Parallel visits of the vertices that meet the planes of a mesh, in blocks.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "narrowphase/plane/oriented_plane.hpp"
+#include "onset/options.hpp"
+#include "scene/motion/motion.hpp"
+#include "scene/planes.hpp"
+#include "src/shared/budget.hpp"
+
+namespace onset {
+
+// The vertices of a plane, rows [first, last) of its list, which is null where they are the ids themselves.
+struct PlaneBlock {
+  const OrientedPlane* plane;
+  int row;
+  const int* list;
+  std::size_t first, last;
+
+  int vertex(std::size_t i) const { return list == nullptr ? int(i) : list[i]; }
+};
+
+class PlaneBlocks {
+ public:
+  PlaneBlocks(const MeshData& mesh, const Motion& motion, const Options& options) {
+    if (!mesh.mesh_planes) return;
+    const std::vector<MeshPlane>& rows = mesh.mesh_planes->rows;
+    planes_.reserve(rows.size());  // blocks point to them
+    for (std::size_t p = 0; p < rows.size(); ++p) {
+      const MeshPlane& row = rows[p];
+      planes_.emplace_back(row, motion.axes, options.norm == Norm::maximum);
+      const std::size_t count = row.all ? std::size_t(mesh.num_vertices) : row.vertices.size();
+      for (std::size_t first = 0; first < count; first += kVertices)
+        blocks_.push_back({&planes_.back(), int(p), row.all ? nullptr : row.vertices.data(), first,
+                           std::min(first + kVertices, count)});
+    }
+  }
+  PlaneBlocks(const PlaneBlocks&) = delete;
+  PlaneBlocks& operator=(const PlaneBlocks&) = delete;
+
+  std::size_t size() const { return blocks_.size(); }
+  const std::vector<OrientedPlane>& planes() const { return planes_; }
+
+  // Calls visit(index, block) for all, from any thread, until the budget is spent.
+  template <class Visit>
+  void visit(Budget& budget, const Visit& visit) const {
+    parallel_ranges(blocks_.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (; first < last && !budget.spent(); ++first) {
+        visit(first, blocks_[first]);
+        if (budget.outcome() == Outcome::free) budget.advance(1);
+      }
+    });
+  }
+
+ private:
+  static constexpr std::size_t kVertices = 4096;
+  std::vector<OrientedPlane> planes_;
+  std::vector<PlaneBlock> blocks_;
+};
+
+// Says, once in so many decisions, whether the call must end.
+class PlaneWatch {
+ public:
+  explicit PlaneWatch(Budget& budget) : stop_(budget.stop()) {}
+  bool ended() { return stop_.asked != nullptr && ++count_ % kWatchedPairs == 0 && stop_.requested(); }
+
+ private:
+  const Stop stop_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace onset
