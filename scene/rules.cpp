@@ -116,13 +116,16 @@ void apply_groups(const CollisionRules& rules, MeshData& data) {
 }
 
 void apply_pairs(const CollisionRules& rules, MeshData& data) {
-  const std::vector<PairKind> kinds{PairKind::vertex_face, PairKind::edge_edge};
+  const std::vector<PairKind> kinds = data.dimension == 2
+                                          ? std::vector{PairKind::vertex_edge}
+                                          : std::vector{PairKind::vertex_face, PairKind::edge_edge};
   NamedPairs pairs("excluded_pairs", data, kinds);
   for (const Pair& p : rules.excluded_pairs) pairs.add(p.kind, p.a, p.b);
   for (const PairKind kind : kinds) data.excluded_pairs[std::size_t(kind)] = pairs.of(kind);
-  NamedPairs intersections("excluded_intersections", data, {kEdgeFace});
-  for (const Intersection& p : rules.excluded_intersections) intersections.add(kEdgeFace, p.edge, p.face);
-  data.excluded_pairs[std::size_t(kEdgeFace)] = intersections.of(kEdgeFace);
+  const PairKind kind = intersection_kind(data);
+  NamedPairs intersections("excluded_intersections", data, {kind});
+  for (const Intersection& p : rules.excluded_intersections) intersections.add(kind, p.edge, p.face);
+  data.excluded_pairs[std::size_t(kind)] = intersections.of(kind);
 }
 
 }  // namespace

@@ -40,11 +40,11 @@ void put(const ContactGeometry& geometry, Contact& contact) {
 
 void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instruction_set,
                    const std::vector<FoundPair>& found, const Stop& stop, ActiveSet& set) {
-  const auto is_of_face = [](const auto& pair) { return pair.kind == PairKind::vertex_face; };
-  const auto faces_of = [&](const auto& pairs) {
-    return std::size_t(std::partition_point(pairs.begin(), pairs.end(), is_of_face) - pairs.begin());
+  // Returns where the pairs of a kind end, which are sorted by kind.
+  const auto end_of = [](PairKind kind, const auto& pairs) {
+    const auto is_no_later = [&](const auto& pair) { return pair.kind <= kind; };
+    return std::size_t(std::partition_point(pairs.begin(), pairs.end(), is_no_later) - pairs.begin());
   };
-  const std::size_t faces = faces_of(found);
   set.contacts.reserve(found.size());
   while (set.size() < found.size() && !stop.requested()) {
     const std::size_t before = set.size();
@@ -57,14 +57,15 @@ void fill_contacts(const Mesh& mesh, const Motion& motion, InstructionSet instru
         put(found[i].result, contacts[i]);
       }
       while (first < last) {
-        const std::size_t end = std::min({first + kRowsAtOnce, last, first < faces ? faces : last});
+        const std::size_t end = std::min({first + kRowsAtOnce, last, end_of(found[first].kind, found)});
         fill_geometry(motion, instruction_set, contacts + first, contacts + end);
         first = end;
       }
     });
   }
-  const std::size_t done = faces_of(set.contacts);
-  set.stats.contacts = {std::int64_t(done), std::int64_t(set.size() - done)};
+  const auto end = [&](PairKind kind) { return std::int64_t(end_of(kind, set.contacts)); };
+  const std::int64_t faces = end(PairKind::vertex_face), edges = end(PairKind::edge_edge);
+  set.stats.contacts = {faces, edges - faces, end(PairKind::vertex_edge) - edges};
 }
 
 }  // namespace onset

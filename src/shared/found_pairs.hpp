@@ -24,14 +24,11 @@ struct FoundPair {
   PairResult result;
 };
 
-// One number orders pairs as (kind, a, b) does, since ids are not negative.
+// One number orders pairs as (kind, a, b) does, since ids are not negative and kinds less than four.
 inline std::uint64_t order_of(PairKind kind, IdPair pair) {
-  return std::uint64_t(kind == PairKind::edge_edge) << 63 | std::uint64_t(pair.a) << 32 |
-         std::uint64_t(pair.b);
+  return std::uint64_t(kind) << 62 | std::uint64_t(pair.a) << 31 | std::uint64_t(pair.b);
 }
-inline PairKind kind_of_order(std::uint64_t order) {
-  return order >> 63 ? PairKind::edge_edge : PairKind::vertex_face;
-}
+inline PairKind kind_of_order(std::uint64_t order) { return PairKind(order >> 62); }
 
 // Orders by (kind, a, b), as an active set is.
 inline bool before(const FoundPair& x, const FoundPair& y) {
