@@ -27,16 +27,17 @@ struct BroadPhaseInput {
   InstructionSet instruction_set = InstructionSet::automatic;
   // The inflation of static primitives; < 0: the same. The mesh keeps their boxes while this does not change.
   double static_inflation = -1;
-  // Whether only pairs of kEdgeFace are wanted, by the swept test; else both kinds that a step has.
-  bool edges_against_faces = false;
+  // Whether only pairs of intersection_kind are wanted, by the swept test; else all kinds that a step has.
+  bool intersections = false;
 };
 
 inline std::vector<PairKind> wanted_kinds(const BroadPhaseInput& input) {
-  if (input.edges_against_faces) return {kEdgeFace};
+  if (input.intersections) return {intersection_kind(input.mesh)};
+  if (input.mesh.dimension == 2) return {PairKind::vertex_edge};
   return {PairKind::vertex_face, PairKind::edge_edge};
 }
 inline bool is_wanted(const BroadPhaseInput& input, Primitive kind) {
-  return kind != Primitive::vertex || !input.edges_against_faces;
+  return kind != Primitive::vertex || !input.intersections;
 }
 
 // Streams exactly once each pair that may meet (may_meet in scene/primitive_filter.hpp) and passes the test.

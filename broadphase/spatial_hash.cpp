@@ -200,7 +200,7 @@ class SpatialHash final : public BroadPhase {
   BoxTest test_ = BoxTest::both_ends;
   bool finite_ = false;
   std::array<Boxes, 3> boxes_;
-  std::array<std::optional<Cells>, 3> cells_;
+  std::array<std::optional<Cells>, kPairKinds> cells_;
 };
 
 }  // namespace

@@ -49,8 +49,8 @@ Side side_at_start(const InitialCase& c) {
   const double* p[4];
   for (int i = 0; i < 4; ++i) p[i] = c.pairs.x + std::ptrdiff_t(c.pairs.vertices[c.row][i]) * kMotionStride;
   // Vertex-face: (v1 - v0) x (v2 - v1) . (p - v0), edge-edge: (a1 - a0) x (b1 - b0) . (a0 - b0).
-  const int sign = c.kind == PairKind::vertex_face ? orientation(p[2], p[3], p[0], p[1])
-                                                   : orientation(p[1], p[2], p[3], p[0]);
+  const int sign = c.kind != PairKind::edge_edge ? orientation(p[2], p[3], p[0], p[1])
+                                                 : orientation(p[1], p[2], p[3], p[0]);
   return {unit(cross(edge(0), edge(1))), sign};
 }
 

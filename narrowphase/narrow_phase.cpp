@@ -72,12 +72,14 @@ void NarrowPhase::gather(PairKind kind, const IdPair* pairs, std::size_t count,
   if (kind == PairKind::vertex_face)
     for (std::size_t i = 0; i < count; ++i)
       put_vertices(in_.mesh, PairKind::vertex_face, pairs[i], &scratch.vertices[4 * i]);
-  else
+  else if (kind == PairKind::edge_edge)
     for (std::size_t i = 0; i < count; ++i)
       put_vertices(in_.mesh, PairKind::edge_edge, pairs[i], &scratch.vertices[4 * i]);
+  else
+    for (std::size_t i = 0; i < count; ++i) put_vertices(in_.mesh, kind, pairs[i], &scratch.vertices[4 * i]);
   scratch.separation.assign(count, in_.options.min_separation);
   if (in_.mesh.thickness.empty()) return;
-  const int first_side = kind == PairKind::vertex_face ? 1 : 2;
+  const int first_side = points_of_first_side(kind);
   for (std::size_t i = 0; i < count; ++i) {  // two sums: rounded up
     const int* v = &scratch.vertices[4 * i];
     scratch.separation[i] = (in_.options.min_separation + thickest(in_.mesh, v, v + first_side) +

@@ -55,22 +55,33 @@ class FilterCounter {
 
   void run(std::array<std::vector<bool>, 3>& idle) {
     count_all();
-    PairFilterCounts *vf = &filter_.counts.vertex_face, *ee = &filter_.counts.edge_edge;
     const Count V = mesh_.num_vertices, E = Count(mesh_.edges.size()), F = Count(mesh_.faces.size());
-    vf->pairs = V * F, ee->pairs = E * (E - 1) / 2;
-    for (const auto& [kind, counts] : {std::pair(PairKind::vertex_face, vf), {PairKind::edge_edge, ee}}) {
+    for (const PairKind kind : kStepKinds) {
+      if (!has_kind(mesh_, kind)) continue;
+      PairFilterCounts& counts = counts_of(kind);
+      counts.pairs = kind == PairKind::vertex_face   ? V * F
+                     : kind == PairKind::vertex_edge ? V * E
+                                                     : E * (E - 1) / 2;
       const Sums t = count(kind, scene_, scene_, true);
-      counts->masked = t.masked, counts->both_static = t.both_static;
+      counts.masked = t.masked, counts.both_static = t.both_static;
       for (const auto& [body, group] : bodies_)
-        if (no_self(body)) counts->same_body += count(kind, group, group, true).rest;
+        if (no_self(body)) counts.same_body += count(kind, group, group, true).rest;
+      counts.adjacent = kind == PairKind::edge_edge     ? adjacent_edge_edge()
+                        : kind == PairKind::vertex_edge ? adjacent_vertices_of(Primitive::edge)
+                                                        : adjacent_vertices_of(Primitive::face);
     }
-    vf->adjacent = adjacent_vertex_face(), ee->adjacent = adjacent_edge_edge();
-    count_excluded(*vf, *ee);
+    count_excluded();
     if (!has_keys()) return;
     for (const Primitive p : kPrimitives) mark_idle(p, idle[std::size_t(p)]);
   }
 
  private:
+  PairFilterCounts& counts_of(PairKind kind) const {
+    FilterCounts& c = filter_.counts;
+    return kind == PairKind::vertex_face ? c.vertex_face
+           : kind == PairKind::edge_edge ? c.edge_edge
+                                         : c.vertex_edge;
+  }
   bool no_self(int body) const {
     return (!mesh_.rigid.empty() && mesh_.rigid[std::size_t(body)]) ||
            (!mesh_.no_self.empty() && mesh_.no_self[std::size_t(body)]);
@@ -125,7 +136,7 @@ class FilterCounter {
         else
           (a[i].kind & b[j].kind & 1 ? t.both_static : t.rest) += n;
       }
-    if (!same && kind == PairKind::vertex_face) {  // the vertices of b against the faces of a
+    if (!same && kind != PairKind::edge_edge) {  // the vertices of b against the faces or edges of a
       const Sums back = count(kind, b, a, true);
       t.masked += back.masked, t.both_static += back.both_static, t.rest += back.rest;
     }
@@ -134,13 +145,18 @@ class FilterCounter {
 
   bool meet(int a, int b) const { return classes_.meet(a / 2, b / 2) && (a & b & 1) == 0; }
 
-  Count adjacent_vertex_face() const {
-    if (!has_keys()) return 3 * Count(mesh_.faces.size());
+  // Counts pairs of a face, or an edge, and one of its vertices.
+  Count adjacent_vertices_of(Primitive p) const {
+    const std::size_t elements = primitive_count(mesh_, p);
+    if (!has_keys())
+      return p == Primitive::face ? 3 * Count(elements) : 2 * Count(elements) - mesh_.num_points;
     Count n = 0;
-    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
-      if (no_self(body_of(Primitive::face, int(f)))) continue;
-      const int kind = kind_of(Primitive::face, int(f));
-      for (int v : mesh_.faces[f]) n += meet(kind_of(Primitive::vertex, v), kind);
+    for (std::size_t f = 0; f < elements; ++f) {
+      if (no_self(body_of(p, int(f)))) continue;
+      const int kind = kind_of(p, int(f));
+      const std::array<int, 3> vertices = primitive_vertices(mesh_, p, int(f));
+      const std::size_t corners = p == Primitive::face ? 3 : vertices[0] == vertices[1] ? 1 : 2;
+      for (std::size_t k = 0; k < corners; ++k) n += meet(kind_of(Primitive::vertex, vertices[k]), kind);
     }
     return n;
   }
@@ -191,12 +207,12 @@ class FilterCounter {
     return n;
   }
 
-  void count_excluded(PairFilterCounts& vf, PairFilterCounts& ee) const {
+  void count_excluded() const {
     for (const auto& [b, c] : mesh_.excluded_bodies) {
       const auto x = bodies_.find(b), y = bodies_.find(c);
       if (x == bodies_.end() || y == bodies_.end()) continue;
-      vf.excluded += count(PairKind::vertex_face, x->second, y->second, false).rest;
-      ee.excluded += count(PairKind::edge_edge, x->second, y->second, false).rest;
+      for (const PairKind kind : kStepKinds)
+        if (has_kind(mesh_, kind)) counts_of(kind).excluded += count(kind, x->second, y->second, false).rest;
     }
     std::map<int, std::array<std::vector<int>, 2>> around;  // edges and faces at the vertices named
     for (const auto& pair : mesh_.excluded_vertices) around[pair[0]], around[pair[1]];
@@ -205,19 +221,21 @@ class FilterCounter {
         for (std::size_t k = 0; k < (p == Primitive::edge ? 2u : 3u); ++k)
           if (const auto at = around.find(primitive_vertices(mesh_, p, int(id))[k]); at != around.end())
             at->second[p == Primitive::face].push_back(int(id));
-    std::vector<std::array<int, 2>> found[2] = {mesh_.excluded_pairs[0], mesh_.excluded_pairs[1]};
+    auto found = mesh_.excluded_pairs;
     for (const auto& [v, w] : mesh_.excluded_vertices) {
-      for (const auto& [from, to] : {std::pair(v, w), {w, v}})
+      for (const auto& [from, to] : {std::pair(v, w), {w, v}}) {
         for (int f : around[to][1]) found[0].push_back({from, f});
+        for (int e : around[to][0]) found[std::size_t(PairKind::vertex_edge)].push_back({from, e});
+      }
       for (int e : around[v][0])
         for (int f : around[w][0]) found[1].push_back({std::min(e, f), std::max(e, f)});
     }
-    for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
+    for (const PairKind kind : kStepKinds) {
+      if (!has_kind(mesh_, kind)) continue;
       auto& pairs = found[std::size_t(kind)];
       std::sort(pairs.begin(), pairs.end());
       pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-      Count& excluded = kind == PairKind::vertex_face ? vf.excluded : ee.excluded;
-      for (const auto& [a, b] : pairs) excluded += only_by_name(kind, a, b);
+      for (const auto& [a, b] : pairs) counts_of(kind).excluded += only_by_name(kind, a, b);
     }
   }
 
@@ -240,7 +258,8 @@ class FilterCounter {
   }
 
   // Edges meet faces too, in the checks of positions at rest.
-  static std::vector<Primitive> others(Primitive p) {
+  std::vector<Primitive> others(Primitive p) const {
+    if (mesh_.dimension == 2) return {p == Primitive::vertex ? Primitive::edge : Primitive::vertex};
     if (p == Primitive::vertex) return {Primitive::face};
     return {Primitive::edge, p == Primitive::edge ? Primitive::face : Primitive::vertex};
   }

@@ -42,9 +42,11 @@ std::ptrdiff_t checked_count(std::ptrdiff_t vertices) {
 }
 
 std::shared_ptr<MeshData> make_data(std::ptrdiff_t vertices, std::vector<std::array<int, 2>> edges,
-                                    std::vector<std::array<int, 3>> faces, const CollisionRules& rules) {
+                                    std::vector<std::array<int, 3>> faces, const CollisionRules& rules,
+                                    int dimension = 3) {
   auto data = std::make_shared<MeshData>();
   data->num_vertices = data->num_full_vertices = int(vertices);
+  data->dimension = dimension;
   data->edges = std::move(edges);
   data->faces = std::move(faces);
   apply_rules(rules, *data);
@@ -84,9 +86,19 @@ Mesh::Mesh(std::ptrdiff_t vertices, const Indices& faces, const CollisionRules& 
 }
 
 Mesh::Mesh(const Positions& rest, const Indices& edges, const Indices& faces, const CollisionRules& rules)
-    : Mesh(rest.rows(), edges, faces, rules) {}
+    : Mesh(rest.cols() == 2 ? in_plane(rest.rows(), edges, rules) : Mesh(rest.rows(), edges, faces, rules)) {
+  if (rest.cols() == 2 && faces.rows() > 0)
+    throw std::invalid_argument("a mesh in the plane (positions of 2 columns) has no faces, but " +
+                                std::to_string(faces.rows()) + " are given: pass edges");
+}
 Mesh::Mesh(const Positions& rest, const Indices& faces, const CollisionRules& rules)
-    : Mesh(rest.rows(), faces, rules) {}
+    : Mesh(rest.cols() == 2 ? in_plane(rest.rows(), faces, rules) : Mesh(rest.rows(), faces, rules)) {}
+
+Mesh Mesh::in_plane(std::ptrdiff_t vertices, const Indices& edges, const CollisionRules& rules) {
+  no_vertices();
+  auto E = checked<2>("edge", edges, checked_count(vertices));
+  return Mesh(std::shared_ptr<const MeshData>(make_data(vertices, std::move(E), {}, rules, 2)));
+}
 
 // Changes data_ only after all that may throw is done.
 template <class F>
@@ -105,6 +117,7 @@ void Mesh::set_rules(const CollisionRules& rules) {
 }
 const CollisionRules& Mesh::rules() const noexcept { return *data_->rules; }
 
+int Mesh::dimension() const noexcept { return data_->dimension; }
 std::ptrdiff_t Mesh::num_vertices() const noexcept { return data_->num_vertices; }
 std::ptrdiff_t Mesh::num_edges() const noexcept { return std::ptrdiff_t(data_->edges.size()); }
 std::ptrdiff_t Mesh::num_points() const noexcept { return data_->num_points; }
@@ -138,22 +151,25 @@ std::array<int, 4> Mesh::full_vertices(const Pair& pair) const {
 
 std::array<std::ptrdiff_t, 12> Mesh::full_dofs(const Pair& pair) const {
   const std::array<int, 4> full = full_vertices(pair);
+  const std::size_t columns = std::size_t(dimension()), vertices = columns == 2 ? 3 : 4;
   std::array<std::ptrdiff_t, 12> dofs;
-  for (std::size_t i = 0; i < 12; ++i)
-    dofs[i] = full[i / 3] < 0 ? -1 : 3 * std::ptrdiff_t(full[i / 3]) + std::ptrdiff_t(i % 3);
+  dofs.fill(-1);
+  for (std::size_t i = 0; i < columns * vertices; ++i)
+    if (const int v = full[i / columns]; v >= 0)
+      dofs[i] = std::ptrdiff_t(columns) * v + std::ptrdiff_t(i % columns);
   return dofs;
 }
 
 std::vector<double> Mesh::surface_positions(const Positions& full) const {
-  if (full.cols() != 3 || full.rows() != num_full_vertices())
+  if (full.cols() != dimension() || full.rows() != num_full_vertices())
     throw std::invalid_argument("positions of the full mesh have " + std::to_string(full.rows()) +
                                 " rows of " + std::to_string(full.cols()) + "; it has " +
-                                std::to_string(num_full_vertices()) +
-                                " vertices and needs one row of 3 for each");
+                                std::to_string(num_full_vertices()) + " vertices and needs one row of " +
+                                std::to_string(dimension()) + " for each");
   std::vector<double> surface;
   surface.reserve(3 * std::size_t(num_vertices()));
   for (std::ptrdiff_t v = 0; v < num_vertices(); ++v)
-    for (int a = 0; a < 3; ++a) surface.push_back(full(full_vertex(v), a));
+    for (int a = 0; a < dimension(); ++a) surface.push_back(full(full_vertex(v), a));
   return surface;
 }
 

@@ -18,8 +18,15 @@ struct PrimitiveFilter;  // scene/primitive_filter.hpp
 // Returns the filter of a mesh without rules: see MeshData::filter.
 std::shared_ptr<const PrimitiveFilter> all_primitives();
 
+// Edges against faces, which only the checks of positions at rest ask about; a step has no such pairs. The
+// last kind of all.
+inline constexpr PairKind kEdgeFace = PairKind(4);
+inline constexpr std::size_t kPairKinds = 5;
+
 struct MeshData {
   int num_vertices = 0, num_points = 0;
+  // 3, or 2: in the plane, with no faces; positions are then stored with z = 0.
+  int dimension = 3;
   // The last num_points are points: {v, v} for a vertex of no other edge or face.
   std::vector<std::array<int, 2>> edges;
   std::vector<std::array<int, 3>> faces;
@@ -39,11 +46,10 @@ struct MeshData {
   // Sorted, each once, the smaller id first.
   std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;
   // By kind; ids as in IdPair, sorted, each once.
-  std::array<std::vector<std::array<int, 2>>, 3> excluded_pairs;
+  std::array<std::vector<std::array<int, 2>>, kPairKinds> excluded_pairs;
 
-  // As the rules have them, and {vertex, plane} of those named one by one, sorted, each once.
+  // As the rules have them.
   std::vector<Plane> planes;
-  std::vector<std::array<int, 2>> excluded_planes;
 
   // The rules as they were given; null in the mesh of a single query.
   std::shared_ptr<const CollisionRules> rules;

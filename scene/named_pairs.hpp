@@ -30,7 +30,7 @@ class NamedPairs {
   const MeshData& mesh_;
   std::vector<PairKind> kinds_;
   std::size_t row_ = 0;
-  std::array<std::vector<std::array<int, 2>>, 5> pairs_;
+  std::array<std::vector<std::array<int, 2>>, kPairKinds> pairs_;
 };
 
 }  // namespace onset

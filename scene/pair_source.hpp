@@ -7,6 +7,7 @@
 #include "base/assert.hpp"
 #include "scene/mesh_data.hpp"
 #include "scene/pair_sink.hpp"
+#include "scene/primitive.hpp"
 
 namespace onset {
 
@@ -17,6 +18,10 @@ inline void put_vertices(const MeshData& mesh, PairKind kind, IdPair p, int* v) 
     ONSET_ASSERT(p.a < mesh.num_vertices && std::size_t(p.b) < mesh.faces.size());
     const auto& f = mesh.faces[std::size_t(p.b)];
     v[0] = p.a, v[1] = f[0], v[2] = f[1], v[3] = f[2];
+  } else if (kind == PairKind::vertex_edge) {  // the edge as a face of two corners
+    ONSET_ASSERT(p.a < mesh.num_vertices && std::size_t(p.b) < mesh.edges.size());
+    const auto& e = mesh.edges[std::size_t(p.b)];
+    v[0] = p.a, v[1] = e[0], v[2] = v[3] = e[1];
   } else {
     ONSET_ASSERT(std::size_t(p.a) < mesh.edges.size() && std::size_t(p.b) < mesh.edges.size());
     std::copy_n(mesh.edges[std::size_t(p.a)].data(), 2, v);
@@ -41,6 +46,13 @@ class PairSource {
   // least once in 2^14 pairs that it looks at.
   virtual void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const = 0;
 };
+
+// Returns the number of blocks of all pairs that a step has.
+inline std::size_t all_blocks(const PairSource& source) {
+  std::size_t blocks = 0;
+  for (const PairKind kind : kStepKinds) blocks += source.blocks(kind);
+  return blocks;
+}
 
 // Collects pairs and hands them on in batches.
 class PairBatch {

@@ -37,8 +37,8 @@ bool may_meet_plane(const MeshData& mesh, int vertex, int plane) {
   const std::uint32_t group = mesh.group.empty() ? ~0u : mesh.group[v];
   const std::uint32_t mask = mesh.mask.empty() ? ~0u : mesh.mask[v];
   if ((group & p.mask) == 0 || (p.group & mask) == 0) return false;
-  return !std::binary_search(mesh.excluded_planes.begin(), mesh.excluded_planes.end(),
-                             std::array<int, 2>{vertex, plane});
+  const auto& excluded = mesh.excluded_pairs[std::size_t(PairKind::vertex_plane)];
+  return !std::binary_search(excluded.begin(), excluded.end(), std::array<int, 2>{vertex, plane});
 }
 
 std::shared_ptr<const MeshPlanes> make_planes(const MeshData& mesh) {

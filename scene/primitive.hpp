@@ -40,15 +40,24 @@ inline std::array<int, 3> primitive_vertices(const MeshData& mesh, Primitive kin
   }
 }
 
-// Edges against faces, which only the checks of positions at rest ask about; a step has no such pairs.
-inline constexpr PairKind kEdgeFace = PairKind(2);
-
 // Return the kind of primitive on each side of a pair.
 inline Primitive first_primitive(PairKind kind) {
-  return kind == PairKind::vertex_face ? Primitive::vertex : Primitive::edge;
+  return kind == PairKind::vertex_face || kind == PairKind::vertex_edge ? Primitive::vertex : Primitive::edge;
 }
 inline Primitive second_primitive(PairKind kind) {
-  return kind == PairKind::edge_edge ? Primitive::edge : Primitive::face;
+  return kind == PairKind::edge_edge || kind == PairKind::vertex_edge ? Primitive::edge : Primitive::face;
+}
+
+// The kinds of pairs that a step may have, in their order.
+inline constexpr std::array<PairKind, 3> kStepKinds{PairKind::vertex_face, PairKind::edge_edge,
+                                                    PairKind::vertex_edge};
+// Whether a mesh has pairs of a kind.
+inline bool has_kind(const MeshData& mesh, PairKind kind) {
+  return (kind == PairKind::vertex_edge) == (mesh.dimension == 2);
+}
+// The pairs of positions at rest whose common points are intersections.
+inline PairKind intersection_kind(const MeshData& mesh) {
+  return mesh.dimension == 2 ? PairKind::edge_edge : kEdgeFace;
 }
 
 }  // namespace onset

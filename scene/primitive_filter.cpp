@@ -61,7 +61,7 @@ void make_keys(const MeshData& m, PrimitiveFilter& filter) {
 }
 
 void flag_excluded_pairs(const MeshData& m, PrimitiveFilter& filter) {
-  for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge, kEdgeFace})
+  for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge, PairKind::vertex_edge, kEdgeFace})
     for (const auto& [a, b] : m.excluded_pairs[std::size_t(kind)]) {
       filter.keys[std::size_t(first_primitive(kind))][std::size_t(a)].flags |= kExcludedFlag;
       filter.keys[std::size_t(second_primitive(kind))][std::size_t(b)].flags |= kExcludedFlag;
@@ -79,8 +79,9 @@ std::vector<int> listed(const std::vector<bool>& marks) {
 // Fills the lists where rules keep no two primitives apart: a kind without partners is dropped as a whole.
 void list_kinds(const MeshData& m, PrimitiveFilter& filter) {
   const bool faces = m.num_vertices > 0 && !m.faces.empty();
-  const bool edges = m.edges.size() > 1 || (faces && !m.edges.empty());
-  const std::array<bool, 3> needed{faces, edges, faces};
+  const bool in_plane = m.dimension == 2 && !m.edges.empty();
+  const bool edges = m.edges.size() > 1 || (faces && !m.edges.empty()) || in_plane;
+  const std::array<bool, 3> needed{faces || in_plane, edges, faces};
   const std::array<PrimitiveFilterCounts*, 3> counts{&filter.counts.vertices, &filter.counts.edges,
                                                      &filter.counts.faces};
   for (const Primitive kind : kPrimitives) {

@@ -127,14 +127,16 @@ void apply_planes(const std::vector<Plane>& planes, MeshData& data) {
 }
 
 void apply_pairs(const CollisionRules& rules, MeshData& data) {
-  const std::vector<PairKind> kinds{PairKind::vertex_face, PairKind::edge_edge};
-  NamedPairs pairs("excluded_pairs", data, {kinds[0], kinds[1], PairKind::vertex_plane});
+  const std::vector<PairKind> kinds = data.dimension == 2
+                                          ? std::vector{PairKind::vertex_edge, PairKind::vertex_plane}
+                                          : std::vector{PairKind::vertex_face, PairKind::edge_edge, PairKind::vertex_plane};
+  NamedPairs pairs("excluded_pairs", data, kinds);
   for (const Pair& p : rules.excluded_pairs) pairs.add(p.kind, p.a, p.b);
   for (const PairKind kind : kinds) data.excluded_pairs[std::size_t(kind)] = pairs.of(kind);
-  data.excluded_planes = pairs.of(PairKind::vertex_plane);
-  NamedPairs intersections("excluded_intersections", data, {kEdgeFace});
-  for (const Intersection& p : rules.excluded_intersections) intersections.add(kEdgeFace, p.edge, p.face);
-  data.excluded_pairs[std::size_t(kEdgeFace)] = intersections.of(kEdgeFace);
+  const PairKind kind = intersection_kind(data);
+  NamedPairs intersections("excluded_intersections", data, {kind});
+  for (const Intersection& p : rules.excluded_intersections) intersections.add(kind, p.edge, p.face);
+  data.excluded_pairs[std::size_t(kind)] = intersections.of(kind);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
                                const Options& options) {
   check(options);
   ActiveSet set;
+  set.dimension = mesh.dimension();
   in_arena(options.threads, [&] {
     Budget budget(options);
     StepSetup setup(mesh, x_t0, x_t1, options, StepSetup::Use::contacts, set.stats, budget);

@@ -31,8 +31,10 @@ class CandidateList {
         room_(use.list ? options.memory_limit / std::int64_t(sizeof(IdPair)) : 0) {}
 
   void take(PairKind kind) {
-    std::int64_t& count =
-        kind == PairKind::vertex_face ? result_.counts.vertex_face : result_.counts.edge_edge;
+    PairCounts& counts = result_.counts;
+    std::int64_t& count = kind == PairKind::vertex_face ? counts.vertex_face
+                          : kind == PairKind::edge_edge ? counts.edge_edge
+                                                        : counts.vertex_edge;
     const auto visit = [&](Task& task, const IdPair* pairs, std::size_t n) { take(kind, pairs, n, task); };
     const auto merge = [&](Task& task) {
       count += task.count;
@@ -46,8 +48,10 @@ class CandidateList {
   void sort() {
     const Stop stop = budget_.stop();
     const auto key = [](const IdRow& ids) { return std::uint64_t(ids[0]) << 32 | std::uint64_t(ids[1]); };
-    if (stop.requested() || !parts_[0].sort_into(result_.vertex_face, key, stop)) return;
-    parts_[1].sort_into(result_.edge_edge, key, stop);
+    if (stop.requested()) return;
+    std::vector<IdRow>* const lists[] = {&result_.vertex_face, &result_.edge_edge, &result_.vertex_edge};
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      if (!parts_[k].sort_into(*lists[k], key, stop)) return;
   }
   // Says whether the list would not fit; nothing more is then listed.
   bool too_many() const { return room_ < 0; }
@@ -87,7 +91,7 @@ class CandidateList {
   Budget& budget_;
   Candidates& result_;
   std::atomic<std::int64_t> room_;
-  std::array<Parts<IdRow>, 2> parts_;
+  std::array<Parts<IdRow>, kStepKinds.size()> parts_;
 };
 
 Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
@@ -102,14 +106,13 @@ Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& 
     if (c.outcome != Outcome::free) return;
     CandidateList list(mesh.data(), setup, use, options, budget, c);
     if (setup.broad) {
-      budget.begin_traversal(setup.broad->blocks(PairKind::vertex_face) +
-                             setup.broad->blocks(PairKind::edge_edge));
-      list.take(PairKind::vertex_face);
-      list.take(PairKind::edge_edge);
+      budget.begin_traversal(all_blocks(*setup.broad));
+      for (const PairKind kind : kStepKinds)
+        if (has_kind(mesh.data(), kind)) list.take(kind);
     }
     if (!list.too_many()) list.sort();
     c.outcome = list.too_many() ? Outcome::out_of_memory : budget.outcome();
-    if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = {};
+    if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = c.vertex_edge = {};
     if (budget.outcome() != Outcome::free) c.stats.looked_at = budget.done();
     c.stats.swept = c.counts;
     c.stats.seconds_broad = c.stats.seconds_total = setup.clock.seconds();

@@ -131,7 +131,7 @@ StartReport check(const Mesh& mesh, const Positions& x, const Options& options) 
     for (std::size_t v = 0; v < use.used.size() && budget.outcome() == Outcome::free; ++v)
       if (!use.used[v]) report.unused_vertices.push_back(int(v));
     if (report.outcome == Outcome::free) {
-      list_copies(mesh.data(), use, x, budget, report);
+      list_copies(mesh.data(), use, in_space(mesh.data(), "x", x), budget, report);
       list_faces(mesh.data(), rest.motion, budget, report);
       list_pairs(mesh, options, budget, rest, report);
     }

@@ -43,14 +43,15 @@ Constraints assemble_constraints(const ActiveSet& set, double eta, const std::ve
   if (!std::isfinite(eta)) throw std::invalid_argument("eta is not finite");
   Constraints c;
   c.bound.assign(set.size(), eta);
-  for (std::vector<int>* ids : {&c.row, &c.dof}) ids->reserve(12 * set.size());
-  c.value.reserve(12 * set.size());
+  const std::size_t columns = std::size_t(set.dimension), points = columns == 2 ? 3 : 4;
+  for (std::vector<int>* ids : {&c.row, &c.dof}) ids->reserve(columns * points * set.size());
+  c.value.reserve(columns * points * set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::array<int, 4> vertices = mapped(set[i].vertices, full_vertex);
-    for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t k = 0; k < points; ++k)
+      for (std::size_t a = 0; a < columns; ++a) {
         c.row.push_back(int(i));
-        c.dof.push_back(3 * vertices[k] + int(a));
+        c.dof.push_back(set.dimension * vertices[k] + int(a));
         c.value.push_back(set[i].weights[k] * set[i].normal[a]);
       }
   }

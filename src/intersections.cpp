@@ -6,6 +6,7 @@
 #include "base/clock.hpp"
 #include "base/instruction_set.hpp"
 #include "narrowphase/at_rest/edge_face.hpp"
+#include "narrowphase/at_rest/edges_in_plane.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/start/rest_pairs.hpp"
 
@@ -34,6 +35,16 @@ void add_if_common(const MeshData& mesh, const Motion& motion, IdPair ids, std::
   found.push_back({ids.a, ids.b, kind_of(answer), {e[0], e[1], f[0], f[1], f[2]}});
 }
 
+void add_if_common_in_plane(const MeshData& mesh, const Motion& motion, IdPair ids,
+                            std::vector<Intersection>& found) {
+  const auto &e = mesh.edges[std::size_t(ids.a)], &f = mesh.edges[std::size_t(ids.b)];
+  const double* const x[4] = {motion.t0(e[0]), motion.t0(e[1]), motion.t0(f[0]), motion.t0(f[1])};
+  const EdgeFace answer = edges_in_plane({x[0], x[1]}, {x[2], x[3]});
+  if (answer == EdgeFace::apart) return;
+  if (mesh.weld && any_across(2, 4, [&](int i, int j) { return at_one_place(x[i], x[j]); })) return;
+  found.push_back({ids.a, ids.b, kind_of(answer), {e[0], e[1], f[0], f[1], f[1]}});
+}
+
 // With `most` = 0 it only says whether there is any.
 Intersections find(const Mesh& mesh, const Positions& x, const Options& options, std::size_t most) {
   check(options);
@@ -60,9 +71,13 @@ Gathered<Intersection> find_intersections(const Mesh& mesh, const Rest& rest, st
                                           Budget& budget) {
   const MeshData& data = mesh.data();
   return gather<Intersection>(
-      *rest.broad, {kEdgeFace}, most, budget,
-      [&](PairKind, const IdPair* pairs, std::size_t count, std::vector<Intersection>& found) {
-        for (std::size_t i = 0; i < count; ++i) add_if_common(data, rest.motion, pairs[i], found);
+      *rest.broad, {intersection_kind(data)}, most, budget,
+      [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<Intersection>& found) {
+        for (std::size_t i = 0; i < count; ++i)
+          if (kind == kEdgeFace)
+            add_if_common(data, rest.motion, pairs[i], found);
+          else
+            add_if_common_in_plane(data, rest.motion, pairs[i], found);
       },
       [](const Intersection& p) {
         return IdPair{p.edge, p.face};

@@ -18,16 +18,17 @@
 namespace onset {
 namespace {
 
-std::vector<double> sum(const Positions& x, const Positions& dx) {
-  if (x.rows() != dx.rows() || x.cols() != 3 || dx.cols() != 3) {
+std::vector<double> sum(const Positions& x, const Positions& dx, int columns) {
+  if (x.rows() != dx.rows() || x.cols() != columns || dx.cols() != columns) {
     TextStream s;
     s << "x_t0 has " << x.rows() << " rows of " << x.cols() << " coordinates, dx has " << dx.rows() << " of "
-      << dx.cols() << "; both need one row of 3 for each vertex";
+      << dx.cols() << "; both need one row of " << columns << " for each vertex";
     throw std::invalid_argument(s.str());
   }
-  std::vector<double> r(std::size_t(3 * x.rows()));
+  std::vector<double> r;
+  r.reserve(std::size_t(columns * x.rows()));
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
-    for (std::ptrdiff_t a = 0; a < 3; ++a) r[std::size_t(3 * v + a)] = x(v, a) + dx(v, a);
+    for (std::ptrdiff_t a = 0; a < columns; ++a) r.push_back(x(v, a) + dx(v, a));
   return r;
 }
 
@@ -45,7 +46,7 @@ struct LineSearch::Impl {
   // Whether there is a d_hat: not asked where a host may take subnormal numbers for 0.
   bool lists_close = false;
   std::unique_ptr<StepSetup> setup;  // keeps its tree only where the lists do not fit
-  std::vector<double> dx;            // 3 #V as the caller gave it; empty without a distance set
+  std::vector<double> dx;            // as the caller gave it, 3 a vertex; empty without a distance set
   StepResult start;      // statistics of the broad phase; outcome and vertex of an unusable motion
   PairList pairs, near;  // may limit a step; may come within d_hat on the way
 
@@ -94,12 +95,14 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
   check(options);
   check_d_hat(options.d_hat, true);
   check_gap_share(options.gap_share);
-  const std::vector<double> x_t1 = in_float_environment(sum, x_t0, dx);
+  const int columns = mesh.dimension();
+  const std::vector<double> x_t1 = in_float_environment(sum, x_t0, dx, columns);
   Impl& h = *impl_;
   in_arena(options.threads, [&] {
     h.lists_close = options.d_hat > 0;
-    for (std::ptrdiff_t i = 0; h.lists_close && i < 3 * dx.rows(); ++i) h.dx.push_back(dx(i / 3, i % 3));
-    const Positions end(x_t1.data(), x_t0.rows());
+    for (std::ptrdiff_t i = 0; h.lists_close && i < 3 * dx.rows(); ++i)
+      h.dx.push_back(i % 3 < columns ? dx(i / 3, i % 3) : 0);
+    const Positions end(x_t1.data(), x_t0.rows(), columns);
     Budget budget(h.options);
     h.setup = std::make_unique<StepSetup>(h.mesh, x_t0, end, h.options, StepSetup::Use::stored_step,
                                           h.start.stats, budget, options.d_hat);
@@ -140,8 +143,8 @@ LineSearchStep LineSearch::largest_step(double upper) const {
     copy_counts(traversal, r.stats);
     limit_step(h.mesh, traversal, budget, upper, upper, r);
     r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
-    for (const auto& [kind, stats] : {std::pair{PairKind::vertex_face, traversal.vertex_face},
-                                      {PairKind::edge_edge, traversal.edge_edge}}) {
+    for (const PairKind kind : kStepKinds) {
+      const NarrowPhaseStats& stats = traversal.of(kind);
       if (stats.least_share >= r.gap_share) continue;
       r.gap_share = std::max(stats.least_share, 0.0);
       r.gap_share_reduced = true;

@@ -11,6 +11,8 @@ const char* to_string(PairKind kind) noexcept {
       return "vertex_face";
     case PairKind::edge_edge:
       return "edge_edge";
+    case PairKind::vertex_edge:
+      return "vertex_edge";
     case PairKind::vertex_plane:
       return "vertex_plane";
   }

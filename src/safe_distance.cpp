@@ -18,11 +18,13 @@
 namespace onset {
 namespace {
 
-void check_rows(const char* name, const Positions& x, std::ptrdiff_t rows) {
-  if (x.cols() != 3 || x.rows() != rows)
+// columns: those of a mesh, or 0 where 3 will do as well as 2.
+void check_rows(const char* name, const Positions& x, std::ptrdiff_t rows, int columns) {
+  const bool fits = columns == 0 ? x.cols() == 3 || x.cols() == 2 : x.cols() == columns;
+  if (!fits || x.rows() != rows)
     throw std::invalid_argument(std::string(name) + " has " + std::to_string(x.rows()) + " rows of " +
                                 std::to_string(x.cols()) + " coordinates, not " + std::to_string(rows) +
-                                " rows of 3");
+                                " rows of " + std::to_string(columns == 2 ? 2 : 3));
 }
 
 void check_close(const Mesh& mesh, const ClosePairs& close) {
@@ -30,9 +32,12 @@ void check_close(const Mesh& mesh, const ClosePairs& close) {
     throw std::invalid_argument(std::string("the close pairs have the outcome ") + to_string(close.outcome));
   if (!(close.d_hat > 0)) throw std::invalid_argument("the close pairs have no d_hat");
   const auto is_of_mesh = [&](const ClosePair& p) {
-    const bool face = p.kind == PairKind::vertex_face;
-    const std::ptrdiff_t a = face ? mesh.num_vertices() : mesh.num_edges(),
-                         b = face ? mesh.num_faces() : mesh.num_edges();
+    const MeshData& data = mesh.data();
+    if (std::find(kStepKinds.begin(), kStepKinds.end(), p.kind) == kStepKinds.end() ||
+        !has_kind(data, p.kind))
+      return false;
+    const std::ptrdiff_t a = std::ptrdiff_t(primitive_count(data, first_primitive(p.kind))),
+                         b = std::ptrdiff_t(primitive_count(data, second_primitive(p.kind)));
     return p.a >= 0 && p.a < a && p.b >= 0 && p.b < b &&
            p.vertices == pair_vertices(mesh.data(), p.kind, {p.a, p.b});
   };
@@ -48,7 +53,9 @@ double below_quotient(double a, double b) {
   return std::max(0.0, q < 0x1p-1000 ? q - 0x1p-1073 : q);
 }
 
-double length(const Positions& dx, std::ptrdiff_t v) { return std::hypot(dx(v, 0), dx(v, 1), dx(v, 2)); }
+double length(const Positions& dx, std::ptrdiff_t v) {
+  return dx.cols() == 2 ? std::hypot(dx(v, 0), dx(v, 1)) : std::hypot(dx(v, 0), dx(v, 1), dx(v, 2));
+}
 
 // docs/theory.md, L49 proves the bound. kStoring (scene/motion/storing.hpp) times the largest coordinate, or
 // d_hat if that is more, covers storing; 1 - 2^-48 covers relative errors and makes the bound strict; 2^-1072
@@ -59,7 +66,7 @@ std::vector<double> distances_by_gaps(const Positions& x, const ClosePairs& clos
     for (const int v : p.vertices) r[std::size_t(v)] = std::min(r[std::size_t(v)], p.gap);
   double largest = close.d_hat;
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
-    for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x(v, a)));
+    for (int a = 0; a < x.cols(); ++a) largest = std::max(largest, std::fabs(x(v, a)));
   const double rounding = kStoring * largest;  // for any order of operations
   for (double& of_vertex : r)
     of_vertex = std::max(0.0, (0.5 * of_vertex * (1 - 0x1p-48) - rounding) * (1 - 0x1p-52) - 0x1p-1072);
@@ -71,12 +78,12 @@ std::vector<double> distances_by_gaps(const Positions& x, const ClosePairs& clos
 double step_by_gaps(const Positions& x_t0, const Positions& x_t1, const ClosePairs& close, double gap_share) {
   std::vector<double> dx;
   for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
-    for (int a = 0; a < 3; ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
+    for (int a = 0; a < x_t0.cols(); ++a) dx.push_back(x_t1(v, a) - x_t0(v, a));
   std::vector<double> r = distances_by_gaps(x_t0, close);
   if (gap_share > 0)
     for (double& of_vertex : r)  // 2^-1074 covers a subnormal product
       of_vertex = std::max(0.0, of_vertex * ((1 - gap_share) * (1 - 0x1p-50)) - 0x1p-1074);
-  return safe_step(r, Positions(dx.data(), x_t0.rows()));
+  return safe_step(r, Positions(dx.data(), x_t0.rows(), int(x_t0.cols())));
 }
 
 // Returns until when unlisted pairs are safe if they have `room`: they are beyond d_hat of their separation,
@@ -99,9 +106,10 @@ double most_moved(const Motion& motion) {
 int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) {
   if (!mesh.data().weld) return -1;
   int first = -1;
-  for (const std::vector<int>& here : shared_places(x_t0))
+  const Positions start = in_space(mesh.data(), "x_t0", x_t0);
+  for (const std::vector<int>& here : shared_places(start))
     for (const int v : here)
-      for (int a = 0; a < 3; ++a)
+      for (int a = 0; a < x_t1.cols(); ++a)
         if (x_t1(v, a) != x_t1(here[0], a) && (first < 0 || v < first)) first = v;
   return first;
 }
@@ -110,14 +118,14 @@ int torn_vertex(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1) 
 
 std::vector<double> safe_distances(const Mesh& mesh, const Positions& x, const ClosePairs& close) {
   const FloatEnvironment environment;
-  check_rows("x", x, mesh.num_vertices());
+  check_rows("x", x, mesh.num_vertices(), mesh.dimension());
   check_close(mesh, close);
   return distances_by_gaps(x, close);
 }
 
 double safe_step(const std::vector<double>& r, const Positions& dx) {
   const FloatEnvironment environment;
-  check_rows("dx", dx, std::ptrdiff_t(r.size()));
+  check_rows("dx", dx, std::ptrdiff_t(r.size()), 0);
   double step = 1;
   for (std::ptrdiff_t v = 0; v < dx.rows(); ++v) {
     const double moved = length(dx, v);

@@ -35,26 +35,27 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
 }
 
 [[noreturn]] void reject(PairKind kind, std::size_t row, const std::string& why) {
-  throw std::invalid_argument((kind == PairKind::vertex_face ? "vertex_face row " : "edge_edge row ") +
-                              std::to_string(row) + ": " + why);
+  throw std::invalid_argument(std::string(to_string(kind)) + " row " + std::to_string(row) + ": " + why);
 }
 
 // Checks the rows up to where the budget ends, if it does.
 std::vector<IdPair> checked(const MeshData& mesh, PairKind kind, const std::vector<std::array<int, 2>>& list,
                             Budget& budget) {
-  const bool vf = kind == PairKind::vertex_face;
-  const int firsts = vf ? mesh.num_vertices : int(mesh.edges.size());
-  const int seconds = int(vf ? mesh.faces.size() : mesh.edges.size());
+  if (!list.empty() && !has_kind(mesh, kind))
+    reject(kind, 0, std::string("the mesh has ") + (mesh.dimension == 2 ? "two" : "three") + " dimensions");
+  const bool single = kind != PairKind::edge_edge;  // a vertex on the first side
+  const int firsts = int(primitive_count(mesh, first_primitive(kind)));
+  const int seconds = int(primitive_count(mesh, second_primitive(kind)));
   std::vector<IdPair> pairs;
   pairs.reserve(list.size());
   each_unless(budget.stop(), 0, list.size(), [&](std::size_t i) {
     IdPair p{list[i][0], list[i][1]};
     if (p.a < 0 || p.a >= firsts || p.b < 0 || p.b >= seconds)
       reject(kind, i, "the mesh has no pair " + std::to_string(p.a) + ", " + std::to_string(p.b));
-    if (!vf && p.a > p.b) std::swap(p.a, p.b);
+    if (!single && p.a > p.b) std::swap(p.a, p.b);
     const std::array<int, 4> v = pair_vertices(mesh, kind, p);
-    for (int k = vf ? 1 : 2; k < 4; ++k)
-      if (v[0] == v[std::size_t(k)] || (!vf && v[1] == v[std::size_t(k)]))
+    for (int k = single ? 1 : 2; k < 4; ++k)
+      if (v[0] == v[std::size_t(k)] || (!single && v[1] == v[std::size_t(k)]))
         reject(kind, i, "the two share vertex " + std::to_string(v[std::size_t(k)]));
     if (may_meet(mesh, kind, p.a, p.b)) pairs.push_back(p);
   });
@@ -95,6 +96,8 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
     pairs.of(PairKind::vertex_face) =
         checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face, budget);
     pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge, budget);
+    pairs.of(PairKind::vertex_edge) =
+        checked(mesh.data(), PairKind::vertex_edge, candidates.vertex_edge, budget);
     r = step_of_pairs(mesh, make_motion(mesh.data(), x_t0, x_t1), pairs, options, gap_share, budget);
     r.stats.seconds_total = clock.seconds();
   });

@@ -93,14 +93,26 @@ class Bvh final : public BroadPhase {
     }
   };
 
+  static Sides sides_of(PairKind kind) {
+    switch (kind) {
+      case PairKind::vertex_face:
+        return Sides::vertices_faces;
+      case PairKind::edge_edge:
+        return Sides::edges_edges;
+      case PairKind::vertex_edge:
+        return Sides::vertices_edges;
+      default:
+        return Sides::edges_faces;
+    }
+  }
+
   void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
                 const PairSink& sink, TraversalMemory& memory) const {
     const Decide decide{*input_, kind};
     TraverseArguments arguments{};
     arguments.query = couple.query->view(), arguments.tree = couple.other->view();
     arguments.test = input_->test;
-    static_assert(Sides(kEdgeFace) == Sides::edges_faces, "one number for both");
-    arguments.sides = Sides(kind);
+    arguments.sides = sides_of(kind);
     arguments.self = couple.query == couple.other;
     arguments.keyed = arguments.query.keys != nullptr;
     arguments.rounded_axes = couple.query->rounded_axes() | couple.other->rounded_axes();
@@ -154,7 +166,7 @@ class Bvh final : public BroadPhase {
   std::optional<BroadPhaseInput> input_;
   std::array<std::optional<BoxTree>, 3> trees_;
   std::shared_ptr<const StaticTrees> static_;
-  std::array<std::vector<Couple>, 3> couples_;
+  std::array<std::vector<Couple>, kPairKinds> couples_;
   mutable FreeList<TraversalMemory> memory_;
 };
 

@@ -51,7 +51,7 @@ struct FitArguments {
 
 // The primitives of a pair; of two edges the smaller id is first. Edges against faces take the swept test
 // only.
-enum class Sides { vertices_faces, edges_edges, edges_faces };
+enum class Sides { vertices_faces, edges_edges, edges_faces, vertices_edges };
 
 // What a traversal keeps its lists in: more than a thread's stack may have to spare.
 struct TraversalMemory {

@@ -54,8 +54,8 @@ class Traversal {
   static constexpr int kRows = kRowsOf[kBothEnds];
   static constexpr int kBoxStride = kBoxStrideOf[kBothEnds];
   static constexpr bool kEdges = kSides == Sides::edges_edges;
-  static constexpr int kOwn = kSides == Sides::vertices_faces ? 1 : 2,
-                       kOther = kEdges ? 2 : 3;  // vertices of a primitive
+  static constexpr int kOwn = kSides == Sides::vertices_faces || kSides == Sides::vertices_edges ? 1 : 2,
+                       kOther = kEdges || kSides == Sides::vertices_edges ? 2 : 3;  // vertices of a primitive
 
   static const float* block_of(const TreeView& tree, int level, unsigned n) {
     return tree.level[level] + std::size_t(n) * (kRows * kLanes);
@@ -299,6 +299,8 @@ template <BoxTest kTest>
 void traverse_boxes(const TraverseArguments& a) {
   if (a.sides == Sides::vertices_faces)
     traverse_sides<kTest, Sides::vertices_faces>(a);
+  else if (a.sides == Sides::vertices_edges)
+    traverse_sides<kTest, Sides::vertices_edges>(a);
   else if (a.self)
     traverse_sides<kTest, Sides::edges_edges, true>(a);
   else

@@ -21,6 +21,8 @@ struct ActiveSet {
   // with a window; 0 where time or checks ran out or the call was cancelled. Of what was found until then, a
   // call that time or the caller ended puts no more in order than a few milliseconds allow.
   double complete_until = 0;
+  // Of the mesh: 3, or 2 in the plane.
+  int dimension = 3;
   Stats stats;
   // Those of the mesh (CollisionRules::planes), which contacts of kind vertex_plane name by row.
   std::vector<Plane> planes;

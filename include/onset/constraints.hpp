@@ -11,9 +11,10 @@ namespace onset {
 // any positions, x y z of vertex 0, x y z of vertex 1, ..., say those at the end of the step.
 struct Constraints {
   // Of entry k: 12 entries a contact, those of contact r in [12 r, 12 r + 12). Their columns differ, but for
-  // a point (CollisionRules::points), whose three come twice, the second time with value 0.
+  // a point (CollisionRules::points), whose three come twice, the second time with value 0. In the plane 6
+  // entries a contact: x y of v, e0 and e1.
   std::vector<int> row;
-  // The column: 3 vertex + axis.
+  // The column: 3 vertex + axis; in the plane 2 vertex + axis.
   std::vector<int> dof;
   // Weight times component of the normal, in [-1, 1].
   std::vector<double> value;

@@ -7,7 +7,8 @@ namespace onset {
 
 // Pairs of one kind, from topology and rules alone: exact, the same for every step and broad phase.
 struct PairFilterCounts {
-  // All: vertex-face: #V #F; edge-edge: #E (#E - 1) / 2, with CollisionRules::points among #E.
+  // All: vertex-face: #V #F; edge-edge: #E (#E - 1) / 2; of a mesh in the plane #V #E and no others. #E is
+  // with CollisionRules::points.
   std::int64_t pairs = 0;
   // Those left out, each pair under the first reason that holds.
   // By groups and masks (CollisionRules::groups); see FilterCounts for very many of them.
@@ -37,7 +38,7 @@ struct PrimitiveFilterCounts {
 // group and mask occur, masked pairs are not counted (0), and no primitive is dropped on their account; they
 // are left out all the same.
 struct FilterCounts {
-  PairFilterCounts vertex_face, edge_edge;
+  PairFilterCounts vertex_face, edge_edge, vertex_edge;
   PrimitiveFilterCounts vertices, edges, faces;
 };
 

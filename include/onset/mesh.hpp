@@ -9,6 +9,7 @@
 #include <onset/filter_counts.hpp>
 #include <onset/result.hpp>
 #include <onset/views.hpp>
+#include <utility>
 #include <vector>
 
 namespace onset {
@@ -20,6 +21,10 @@ struct MeshData;  // scene/mesh_data.hpp
 // Tested are vertices against faces and edges against edges. Two points, or a point and a wire, pass one
 // another without touching unless aimed exactly: they are tested against each other where they are declared
 // (CollisionRules::points), as those that must keep a distance should be.
+//
+// A mesh in the plane is made from positions of two columns, or by in_plane. It has no faces, its positions
+// are #V x 2 in every call, and tested is every vertex against every edge that is not its own; so are two
+// points where they are declared, once from each side (docs/two-dimensions.md).
 //
 // Checked once, shared by every call. Immutable but for the two set_ functions. Const calls from any number
 // of threads are safe, a set_ function with any other call is not. Copies share their data until one of them
@@ -45,15 +50,20 @@ class ONSET_API Mesh {
   Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces, const CollisionRules& rules = {});
   // As above with edges derived from the faces: onset::edges(faces), the order of igl::edges.
   Mesh(std::ptrdiff_t vertices, const Indices& faces, const CollisionRules& rules = {});
-  // As above; `rest` (#V x 3) gives the number of vertices. Its values are not used.
+  // As above; `rest` (#V x 3) gives the number of vertices. Its values are not used. Where it is #V x 2 the
+  // mesh is in the plane: `faces` must then have no rows, and the second one takes edges, #E x 2.
   Mesh(const Positions& rest, const Indices& edges, const Indices& faces, const CollisionRules& rules = {});
   Mesh(const Positions& rest, const Indices& faces, const CollisionRules& rules = {});
+  // Returns a mesh in the plane. Parameters and errors are those of the first constructor.
+  static Mesh in_plane(std::ptrdiff_t vertices, const Indices& edges, const CollisionRules& rules = {});
 
   // Replaces the rules. Throws std::invalid_argument naming the rule and the row, and then leaves the mesh as
   // it was. O(#V + #E + #F), n log n with bodies.
   void set_rules(const CollisionRules& rules);
   const CollisionRules& rules() const noexcept;
 
+  // 3, or 2 in the plane: the number of columns of positions.
+  int dimension() const noexcept;
   std::ptrdiff_t num_vertices() const noexcept;
   // With those of length zero that points are.
   std::ptrdiff_t num_edges() const noexcept;
@@ -90,9 +100,11 @@ class ONSET_API Mesh {
   std::ptrdiff_t num_full_vertices() const noexcept;
   int full_vertex(std::ptrdiff_t vertex) const;
   std::array<int, 4> full_vertices(const Pair& pair) const;
-  // 3 full_vertex + axis, in the pair's order.
+  // 3 full_vertex + axis, in the pair's order; in the plane 2 full_vertex + axis, then -1 from the seventh
+  // on.
   std::array<std::ptrdiff_t, 12> full_dofs(const Pair& pair) const;
-  // x y z of each surface vertex, out of the full mesh's positions: `Positions(p.data(), num_vertices())`.
+  // x y z (in the plane x y) of each surface vertex, out of the full mesh's positions: `Positions(p.data(),
+  // num_vertices(), dimension())`.
   std::vector<double> surface_positions(const Positions& full) const;
 
   // Frees the trees of the latest calls, their order and memory, which a mesh keeps for the next call on it.
@@ -102,6 +114,7 @@ class ONSET_API Mesh {
   const MeshData& data() const noexcept { return *data_; }
 
  private:
+  explicit Mesh(std::shared_ptr<const MeshData> data) : data_(std::move(data)) {}
   template <class F>
   void change(F&& f);
   std::shared_ptr<const MeshData> data_;

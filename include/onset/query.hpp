@@ -21,8 +21,15 @@ struct EdgeEdgeQuery {
   std::array<Point, 4> t0, t1;
 };
 
-// A contact of `vertices` 0 to 3 in the query's order; ids a and b are 0 (two edges: 0 and 1). Where it is
-// free, toi is infinite, and there is no point or normal. Positions that are not usable: toi 0.
+using PlanePoint = std::array<double, 2>;
+struct VertexEdgeQuery {
+  // Vertex, edge end 0, 1, in the plane.
+  std::array<PlanePoint, 3> t0, t1;
+};
+
+// A contact of `vertices` 0 to 3 in the query's order (vertex and edge: 0, 1, 2, 2); ids a and b are 0 (two
+// edges: 0 and 1). Where it is free, toi is infinite, and there is no point or normal. Positions that are not
+// usable: toi 0.
 struct QueryResult : Contact {
   std::int64_t checks = 0;
   bool collides() const noexcept { return outcome != PairOutcome::free; }
@@ -41,5 +48,6 @@ struct QueryResult : Contact {
 // Source: as construct_active_set; docs/theory.md, section 9.
 ONSET_API QueryResult vertex_face_ccd(const VertexFaceQuery& query, const Options& options = {});
 ONSET_API QueryResult edge_edge_ccd(const EdgeEdgeQuery& query, const Options& options = {});
+ONSET_API QueryResult vertex_edge_ccd(const VertexEdgeQuery& query, const Options& options = {});
 
 }  // namespace onset

@@ -11,24 +11,25 @@
 
 namespace onset {
 
-// In this order wherever pairs are put in order.
-enum class PairKind : std::uint8_t { vertex_face = 0, edge_edge = 1, vertex_plane = 4 };
+// In this order wherever pairs are put in order. vertex_edge: of a mesh in the plane (Mesh::dimension() of 2), which has
+// no vertex_face and edge_edge.
+enum class PairKind : std::uint8_t { vertex_face, edge_edge, vertex_edge, vertex_plane };
 ONSET_API const char* to_string(PairKind kind) noexcept;
 
 // One pair of primitives.
 struct Pair {
   PairKind kind = PairKind::vertex_face;
-  // vertex_face: a is the vertex, b the face. edge_edge: edges, a < b. vertex_plane: a is the vertex, b the
-  // row of CollisionRules::planes.
+  // vertex_face, vertex_edge: a is the vertex, b the face or edge. edge_edge: edges, a < b. vertex_plane: a is
+  // the vertex, b the row of CollisionRules::planes.
   int a = -1, b = -1;
   // vertex_face: v, f0, f1, f2. edge_edge: a0, a1, b0, b1; a point (CollisionRules::points) has the same
-  // twice. vertex_plane: v, -1, -1, -1.
+  // twice. vertex_edge: v, e0, e1, e1. vertex_plane: v, -1, -1, -1.
   std::array<int, 4> vertices{-1, -1, -1, -1};
 };
 
 struct PairCounts {
-  std::int64_t vertex_face = 0, edge_edge = 0, vertex_plane = 0;
-  std::int64_t total() const noexcept { return vertex_face + edge_edge + vertex_plane; }
+  std::int64_t vertex_face = 0, edge_edge = 0, vertex_edge = 0, vertex_plane = 0;
+  std::int64_t total() const noexcept { return vertex_face + edge_edge + vertex_edge + vertex_plane; }
 };
 
 // How one pair ended.
@@ -123,12 +124,12 @@ struct Contact : Pair {
   // The closest points at toi, p1 of the first primitive and p2 of the second, as weights of the four
   // `vertices`: p1 - p2 = sum_k weights[k] x[vertices[k]], linear in the positions at any time. Clamped to
   // the primitives, multiples of 2^-52; the first side's sum to 1, the second's to -1. Where several points
-  // are as close, as of parallel edges, any of them. vertex_plane: 1, 0, 0, 0, and p2 is
-  // the point of the half-space that is closest to p1.
+  // are as close, as of parallel edges, any of them. vertex_edge: 1, e0's, e1's, 0. vertex_plane: 1, 0, 0, 0,
+  // and p2 is the point of the half-space that is closest to p1.
   std::array<double, 4> weights{};
   // Unit, from p2 to p1 as the exact closest points lie, however close: where the first primitive came from.
   // Where the two touch inside both primitives: the normal of the face, or of both edges, on the side that
-  // the pair was on just before toi, in exact arithmetic.
+  // the pair was on just before toi, in exact arithmetic. vertex_edge: in the plane, the third component 0.
   std::array<double, 3> normal{};
   // |p1 - p2| (Euclidean, the separation not taken off): within 2^-46 of the pair's size of its distance at
   // toi. The size is the largest corner difference at both ends of the step.
@@ -138,13 +139,14 @@ struct Contact : Pair {
   double speed = 0;
 };
 
-// What a closed edge and a closed face have in common.
+// What a closed edge and a closed face have in common, or in the plane two closed edges: `face` then stands
+// for the second edge, the one with the larger id.
 enum class IntersectionKind : std::uint8_t {
-  // One point, inside the edge and inside the face: the edge goes through.
+  // One point, inside the edge and inside the face (or the other edge): the edge goes through.
   crossing,
   // One point, which is an end of the edge or on the boundary of the face, or both.
   touching,
-  // A segment: the edge lies in the plane of the face, or along a face without area.
+  // A segment: the edge lies in the plane of the face, or along a face without area, or along the other edge.
   overlapping,
 };
 ONSET_API const char* to_string(IntersectionKind kind) noexcept;
@@ -152,7 +154,8 @@ ONSET_API const char* to_string(IntersectionKind kind) noexcept;
 struct Intersection {
   int edge = -1, face = -1;
   IntersectionKind kind = IntersectionKind::crossing;
-  // e0, e1, f0, f1, f2; a point (CollisionRules::points) has the same e0 and e1.
+  // e0, e1, f0, f1, f2; a point (CollisionRules::points) has the same e0 and e1. In the plane e0, e1 and the
+  // other edge's f0, f1, f1.
   std::array<int, 5> vertices{-1, -1, -1, -1, -1};
 };
 

@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace onset {
 
-// #V x 3 positions (model length), one row a vertex.
+// #V x 3 positions (model length), one row a vertex; #V x 2 for a mesh in the plane.
 //
 // Guarantee: dense double storage is viewed without a copy and must outlive the view, which in a call means
 // the call; anything else (expressions such as `x + dx`, float matrices) is evaluated into a copy that the
@@ -17,12 +18,14 @@ namespace onset {
 // shape. Reading a view is safe from several threads.
 class Positions {
  public:
-  // From interleaved memory: xyz of vertex 0, xyz of vertex 1, ..., 3 `vertices` doubles.
-  Positions(const double* xyz, std::ptrdiff_t vertices) noexcept
-      : data_(xyz), rows_(vertices), cols_(3), row_stride_(3), col_stride_(1) {}
+  // From interleaved memory: xyz of vertex 0, xyz of vertex 1, ..., 3 `vertices` doubles; xy with 2
+  // `columns`.
+  Positions(const double* xyz, std::ptrdiff_t vertices, int columns = 3) noexcept
+      : data_(xyz), rows_(vertices), cols_(columns), row_stride_(columns), col_stride_(1) {}
 
   // From any Eigen matrix (column- or row-major, a Map, a block, float or double) of #V x 3, or from a flat
-  // vector of 3 #V degrees of freedom (x y z of vertex 0, x y z of vertex 1, ...).
+  // vector of 3 #V degrees of freedom (x y z of vertex 0, x y z of vertex 1, ...). Those of a mesh in the
+  // plane are not flat.
   template <class Derived>
   Positions(const Eigen::DenseBase<Derived>& m) {  // NOLINT: implicit by design
     constexpr bool viewable = std::is_same_v<typename Derived::Scalar, double> &&
@@ -41,7 +44,7 @@ class Positions {
   }
 
   std::ptrdiff_t rows() const noexcept { return rows_; }
-  // 3, or what the caller passed by mistake.
+  // 3 or 2, or what the caller passed by mistake.
   std::ptrdiff_t cols() const noexcept { return cols_; }
   double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const noexcept {
     return data_[row * row_stride_ + col * col_stride_];
@@ -50,6 +53,16 @@ class Positions {
   const double* data() const noexcept { return data_; }
   std::ptrdiff_t row_stride() const noexcept { return row_stride_; }
   std::ptrdiff_t col_stride() const noexcept { return col_stride_; }
+
+  // The same points at z = 0: three columns, in a copy that the result owns.
+  Positions in_space() const {
+    auto copy = std::make_shared<std::vector<double>>(std::size_t(3 * rows_), 0.0);
+    for (std::ptrdiff_t v = 0; v < rows_; ++v)
+      for (std::ptrdiff_t a = 0; a < 2; ++a) (*copy)[std::size_t(3 * v + a)] = (*this)(v, a);
+    Positions r(copy->data(), rows_);
+    r.owned_ = std::move(copy);
+    return r;
+  }
 
  private:
   void assign(const double* data, std::ptrdiff_t rows, std::ptrdiff_t cols, std::ptrdiff_t row_stride,

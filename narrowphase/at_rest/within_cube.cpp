@@ -21,8 +21,8 @@ struct Differences {
       for (int k = 0; k < 3; ++k) size = std::max(size, std::fabs(p[k]));
     const double scale = size > 0 ? std::ldexp(1.0, std::min(-std::ilogb(size), 1000)) : 1;
     const auto at = [&](int i) { return Vec{{x[i][0] * scale, x[i][1] * scale, x[i][2] * scale}}; };
-    count = kind == PairKind::vertex_face ? 3 : 4;
-    if (kind == PairKind::vertex_face)
+    count = kind != PairKind::edge_edge ? 3 : 4;
+    if (kind != PairKind::edge_edge)
       for (int i = 0; i < 3; ++i) corner[i] = at(0) - at(i + 1);
     else
       corner[0] = at(0) - at(2), corner[1] = at(0) - at(3), corner[2] = at(1) - at(3),

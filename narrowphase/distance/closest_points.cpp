@@ -17,14 +17,15 @@ struct Foot {
 };
 Foot rounded(PairKind kind, double U, double V) {
   const Foot r{std::clamp((1 + U) - 1, 0.0, 1.0), std::clamp((1 + V) - 1, 0.0, 1.0)};
-  return kind == PairKind::vertex_face ? Foot{r.U, std::min(r.V, 1 - r.U)} : r;
+  return kind != PairKind::edge_edge ? Foot{r.U, std::min(r.V, 1 - r.U)} : r;
 }
 
 void put_weights(PairKind kind, const Foot& f, double (&w)[4]) {
-  const bool triangle = kind == PairKind::vertex_face;
+  const bool triangle = kind != PairKind::edge_edge;
   w[0] = triangle ? 1 : 1 - f.U, w[1] = triangle ? -(1 - f.U - f.V) : f.U;
   w[2] = triangle ? -f.U : -(1 - f.V), w[3] = -f.V;
-  for (double& x : w) x += 0.0;  // no -0
+  if (kind == PairKind::vertex_edge) w[2] += w[3], w[3] = 0;  // both are e1's, and multiples of 2^-52
+  for (double& x : w) x += 0.0;                               // no -0
 }
 
 void put_direction(const Vec& n, double (&direction)[3]) {
@@ -34,7 +35,7 @@ void put_direction(const Vec& n, double (&direction)[3]) {
 // Computes the point as a convex mean of the corners, within 5u rho (docs/theory.md, L42).
 Vec point_at(const Differences<double>& d, const Foot& f) {
   const Vec(&c)[4] = d.corner;
-  if (d.kind == PairKind::vertex_face) return ((1 - f.U - f.V) * c[0] + f.U * c[1]) + f.V * c[2];
+  if (d.kind != PairKind::edge_edge) return ((1 - f.U - f.V) * c[0] + f.U * c[1]) + f.V * c[2];
   const Vec first = (1 - f.V) * c[0] + f.V * c[1], second = (1 - f.V) * c[2] + f.V * c[3];
   return (1 - f.U) * first + f.U * second;
 }

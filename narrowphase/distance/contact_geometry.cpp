@@ -32,7 +32,7 @@ Vec square_to(const Vec& e) {
 }
 
 double coordinate(const double (&weights)[4], PairKind kind) {  // U
-  return kind == PairKind::vertex_face ? -weights[2] : weights[1];
+  return kind != PairKind::edge_edge ? -weights[2] : weights[1];
 }
 
 // How p1 - p2 changes over the whole step.
@@ -47,13 +47,17 @@ class Touching {
   Touching(const ExactPair& pair, const Differences<DoubleDouble>& d, const ClosestPoints& near, double size,
            const Vec& past, double t, bool odd_axes)
       : pair_(pair), d_(d), near_(near), plane_(d), size_(size), past_(past), t_(t), odd_axes_(odd_axes) {
-    if (plane_.resolved) across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
+    if (pair.kind == PairKind::vertex_edge)
+      across_ = unit(Vec{{-d.a[1].hi, d.a[0].hi, 0}});
+    else if (plane_.resolved)
+      across_ = unit(rounded((plane_.swapped ? -1.0 : 1.0) * plane_.normal()));
   }
 
   // Returns the side of a x b that the pair came from, inside both primitives; 0: not known.
   int side() const {
+    if (pair_.kind == PairKind::vertex_edge) return side_in_plane();
     const int s = side_before(pair_, t_);
-    return pair_.kind == PairKind::vertex_face ? s : -s;
+    return pair_.kind != PairKind::edge_edge ? s : -s;
   }
   Vec inside(int side) const {
     if (side != 0) return double(side) * across_;
@@ -71,6 +75,12 @@ class Touching {
   }
 
  private:
+  // Of a x q, which errs by less than 2^-93 of its size (docs/two-dimensions.md).
+  int side_in_plane() const {
+    const double here = (d_.a[0] * d_.q[1] - d_.a[1] * d_.q[0]).hi;
+    if (std::fabs(here) > 0x1p-90 * size_ * size_) return here > 0 ? 1 : -1;
+    return side_before(pair_, t_);
+  }
   bool came_along(const Vec& n) const { return dot(n, past_) > kNothing * length(past_); }
   bool came_from(const Vec& n) const { return came_along(n) || came_along(-1 * n); }
   int side_here() const {
@@ -140,14 +150,17 @@ Geometry precise_geometry(const ExactPair& pair, double t, bool parting, bool od
   Geometry f{precise_closest_points(d, precise.blur(t)), {}, 0, precise.unit, false};
   f.normal = vec(f.near.normal);
   const VecOf<DoubleDouble> moved = motion_of(precise, f.near.weights);
-  const bool inside =
-      f.near.square && std::none_of(f.near.weights, f.near.weights + 4, [](double w) { return w == 0; });
-  if (!(f.near.lower > (inside ? 0 : kResolved * precise.size))) {
+  const bool in_plane = pair.kind == PairKind::vertex_edge;
+  const bool inside = in_plane ? f.near.weights[1] != 0 && f.near.weights[2] != 0
+                               : f.near.square && std::none_of(f.near.weights, f.near.weights + 4,
+                                                               [](double w) { return w == 0; });
+  if (!(f.near.lower > (inside && !in_plane ? 0 : kResolved * precise.size))) {
     const Vec past = rounded((parting ? 1.0 : -1.0) * moved);
     const Touching touching(pair, d, f.near, precise.size, past, t, odd_axes);
     const int side = inside ? touching.side() : 0;
     f.normal = inside ? touching.inside(side) : touching.at_boundary();
     f.degenerate = side == 0;
+    if (in_plane && f.normal[2] != 0) f.normal = {{1, 0, 0}};  // nothing tells a direction
   }
   f.speed = dot(VecOf<DoubleDouble>{{f.normal[0], f.normal[1], f.normal[2]}}, moved).hi;
   return f;

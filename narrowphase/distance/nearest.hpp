@@ -21,9 +21,9 @@ struct Differences {
   VecOf<T> q, a, b;
   VecOf<T> corner[4];
 
-  int corners() const { return kind == PairKind::vertex_face ? 3 : 4; }
+  int corners() const { return kind != PairKind::edge_edge ? 3 : 4; }
   void set_corners() {
-    const bool triangle = kind == PairKind::vertex_face;
+    const bool triangle = kind != PairKind::edge_edge;
     corner[0] = q, corner[triangle ? 2 : 1] = q - b, corner[triangle ? 1 : 2] = q - a;
     if (!triangle) corner[3] = corner[2] - b;
   }
@@ -92,7 +92,7 @@ bool foot_on_plane(const Differences<T>& d, const PairPlane<T>& plane, Nearest<T
   r.U = plane.swapped ? y : x, r.V = plane.swapped ? x : y;
   const T zero = 0.0, one = 1.0;
   if (r.U < zero || r.V < zero) return false;
-  return d.kind == PairKind::vertex_face ? !(r.U + r.V > one) : !(r.U > one || r.V > one);
+  return d.kind != PairKind::edge_edge ? !(r.U + r.V > one) : !(r.U > one || r.V > one);
 }
 
 // Finds the nearest point of the boundary. Inside a side the direction is made square to it: rounding along
@@ -105,7 +105,7 @@ Nearest<T> nearest_on_sides(const Differences<T>& d) {
   };
   static constexpr Side kTriangle[] = {{0, 0, 0, 1, 0}, {0, 0, 0, 0, 1}, {1, 1, 0, -1, 1}};
   static constexpr Side kSquare[] = {{0, 0, 0, 1, 0}, {0, 0, 0, 0, 1}, {1, 0, 1, 1, 0}, {2, 1, 0, 0, 1}};
-  const bool triangle = d.kind == PairKind::vertex_face;
+  const bool triangle = d.kind != PairKind::edge_edge;
   const VecOf<T> slanted = triangle ? d.b - d.a : VecOf<T>{};
   Nearest<T> best;
   T least = 0.0;

@@ -24,7 +24,7 @@ double largest_corner(const Differences<DoubleDouble>& d) {
 }  // namespace
 
 double largest_corner_component(PairKind kind, const double* const (&x)[4]) {
-  const int side = kind == PairKind::vertex_face ? 1 : 2;
+  const int side = kind != PairKind::edge_edge ? 1 : 2;
   double r = 0;
   for (int i = 0; i < side; ++i)
     for (int j = side; j < 4; ++j)
@@ -37,7 +37,7 @@ double inverse_unit(double largest) {
 }
 
 Differences<double> rounded_differences(PairKind kind, const double* const (&x)[4], double scale) {
-  const bool triangle = kind == PairKind::vertex_face;
+  const bool triangle = kind != PairKind::edge_edge;
   Differences<double> d{kind, {}, {}, {}, {}};
   for (int k = 0; k < d.corners(); ++k)
     d.corner[k] = triangle ? rounded_difference(x[0], x[1 + k], scale)
@@ -49,7 +49,7 @@ Differences<double> rounded_differences(PairKind kind, const double* const (&x)[
 }
 
 Differences<DoubleDouble> precise_differences(PairKind kind, const double* const (&x)[4], double scale) {
-  const bool triangle = kind == PairKind::vertex_face;
+  const bool triangle = kind != PairKind::edge_edge;
   Differences<DoubleDouble> d{kind, {}, {}, {}, {}};
   d.q = difference(x[0], x[triangle ? 1 : 2], scale);
   d.a = triangle ? difference(x[2], x[1], scale) : difference(x[0], x[1], scale);

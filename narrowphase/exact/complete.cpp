@@ -135,7 +135,7 @@ class CompleteDecision {
     const Polynomial u = cross(r_.q, r_.b, k), v = cross(r_.a, r_.q, k);
     const auto not_negative = [&](const Polynomial& g) { return sign_of_n * sign_at(g, t) >= 0; };
     if (!not_negative(u) || !not_negative(v)) return false;
-    if (kind_ == PairKind::vertex_face) return not_negative(n_[k] - u - v);
+    if (kind_ != PairKind::edge_edge) return not_negative(n_[k] - u - v);
     return not_negative(n_[k] - u) && not_negative(n_[k] - v);
   }
 
@@ -206,8 +206,10 @@ int side_before(const ExactPair& pair, double t) {
   const RelativeVectors<Polynomial> r = relative_motion(pair.kind, t0, t1);
   const Dyadic time = to_dyadic(t);
   int turn = 1;
-  for (Polynomial f = dot(r.q, {cross(r.a, r.b, 0), cross(r.a, r.b, 1), cross(r.a, r.b, 2)}); !f.is_zero();
-       f = derivative(f), turn = -turn) {
+  Polynomial f = pair.kind == PairKind::vertex_edge
+                     ? cross(r.a, r.q, 2)
+                     : dot(r.q, {cross(r.a, r.b, 0), cross(r.a, r.b, 1), cross(r.a, r.b, 2)});
+  for (; !f.is_zero(); f = derivative(f), turn = -turn) {
     const int s = sign_at(f, time.numerator, unsigned(time.exponent));
     if (s != 0 || t == 0) return turn * s;
   }

@@ -6,6 +6,7 @@
 #include "narrowphase/exact/coplanar.hpp"
 #include "narrowphase/exact/grid.hpp"
 #include "narrowphase/exact/search.hpp"
+#include "narrowphase/exact/static.hpp"
 
 namespace onset {
 namespace {
@@ -85,6 +86,17 @@ Decided search_two_limbs(const ExactPair& pair, const Grid& grid, bool want_time
                                                want_time);
 }
 
+// Replaces the start by the positions at a time, and scales both to integers.
+template <class W>
+void start_at(const Dyadic& start, IntegerPoints<W>& t0, IntegerPoints<W>& t1) {
+  const W one = shifted(W(1), start.exponent), passed(start.numerator);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t a = 0; a < 3; ++a) {
+      t0[i][a] = t0[i][a] * (one - passed) + t1[i][a] * passed;
+      t1[i][a] = t1[i][a] * one;
+    }
+}
+
 constexpr int kWide = 8;
 Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool want_time) {
   using W = Wide<kWide>;
@@ -92,19 +104,35 @@ Decided search_wide(const ExactPair& pair, const Grid& grid, double from, bool w
   const int bits = grid.bits() + start.exponent + 1, depth = depth_for(bits, 64 * kWide);
   if (depth < 4) return {Answer::unknown, true, {}};
   auto t0 = points_on_grid<W>(pair.t0, grid.last), t1 = points_on_grid<W>(pair.t1, grid.last);
-  if (from > 0) {  // the positions then, scaled to integers
-    const W one = shifted(W(1), start.exponent), passed(start.numerator);
-    for (int i = 0; i < 4; ++i)
-      for (int a = 0; a < 3; ++a) {
-        t0[i][a] = t0[i][a] * (one - passed) + t1[i][a] * passed;
-        t1[i][a] = t1[i][a] * one;
-      }
-  }
+  if (from > 0) start_at(start, t0, t1);
   return search<12, W, W, W>(pair, t0, t1, bits, depth, want_time);
+}
+
+// In the plane q x a is a quadratic, whose roots coplanar.cpp compares in integers of fixed width. C holds
+// coordinates of q and a, M sums of two of their products.
+template <class C, class M>
+Decided search_in_plane(const ExactPair& pair, const IntegerPoints<C>& t0, const IntegerPoints<C>& t1,
+                        bool want_time) {
+  const RelativeVectors<C> r0 = relative_vectors(pair.kind, t0), r1 = relative_vectors(pair.kind, t1);
+  if (on_segment<M>(PointAndSegment<C>{r0.q, r0.a})) return {Answer::yes, true, DoubleBracket{}};
+  const CoplanarContact first = first_coplanar_contact(pair.kind, r0, r1, want_time);
+  return {first.answer, true, first.time};
+}
+
+Decided search_in_plane(const ExactPair& pair, const Grid& grid, double from, bool want_time) {
+  const Dyadic start = to_dyadic(from);
+  if (from == 0 && grid.bits() <= 61)
+    return search_in_plane<std::int64_t, Int128>(pair, points_on_grid<std::int64_t>(pair.t0, grid.last),
+                                                 points_on_grid<std::int64_t>(pair.t1, grid.last), want_time);
+  if (grid.bits() + start.exponent + 1 > 120) return {Answer::unknown, true, {}};
+  auto t0 = points_on_grid<Wide<2>>(pair.t0, grid.last), t1 = points_on_grid<Wide<2>>(pair.t1, grid.last);
+  if (from > 0) start_at(start, t0, t1);
+  return search_in_plane<Wide<2>, Wide<4>>(pair, t0, t1, want_time);
 }
 
 Decided search(const ExactPair& pair, double from, bool want_time) {
   const Grid grid = grid_of(pair);
+  if (pair.kind == PairKind::vertex_edge) return search_in_plane(pair, grid, from, want_time);
   if (from > 0 || grid.bits() > 120) return search_wide(pair, grid, from, want_time);
   return grid.bits() <= 61 ? search_narrow(pair, grid, want_time) : search_two_limbs(pair, grid, want_time);
 }

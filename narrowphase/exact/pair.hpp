@@ -10,7 +10,7 @@
 
 namespace onset {
 
-// Three finite doubles a point: v, f0, f1, f2 or a0, a1, b0, b1 at both ends of the motion.
+// Three finite doubles a point: v, f0, f1, f2 or a0, a1, b0, b1 or v, e0, e1, e1 at both ends of the motion.
 struct ExactPair {
   PairKind kind;
   const double* t0[4];
@@ -36,6 +36,7 @@ inline bool rests(const ExactPair& pair) {
 enum class Answer { no, yes, unknown };
 
 // The pair touches iff q = U a + V b with U, V >= 0, U + V <= 1 (vertex-face) or U, V in [0, 1] (edge-edge).
+// In the plane b = a is the edge, which is all of the boundary, and third components are 0.
 template <class C>
 struct RelativeVectors {
   std::array<C, 3> q, a, b;
@@ -48,7 +49,7 @@ std::array<C, 3> difference(const std::array<C, 3>& x, const std::array<C, 3>& y
 
 template <class C>
 RelativeVectors<C> relative_vectors(PairKind kind, const std::array<std::array<C, 3>, 4>& x) {
-  if (kind == PairKind::vertex_face)
+  if (kind != PairKind::edge_edge)
     return {difference(x[0], x[1]), difference(x[2], x[1]), difference(x[3], x[1])};
   return {difference(x[2], x[0]), difference(x[1], x[0]), difference(x[2], x[3])};
 }
@@ -62,8 +63,9 @@ struct PointAndSegment {
 template <class C>
 int boundary_of(PairKind kind, const RelativeVectors<C>& r, PointAndSegment<C> (&out)[4]) {
   out[0] = {r.q, r.a};
+  if (kind == PairKind::vertex_edge) return 1;
   out[1] = {r.q, r.b};
-  if (kind == PairKind::vertex_face) {
+  if (kind != PairKind::edge_edge) {
     out[2] = {difference(r.q, r.a), difference(r.b, r.a)};
     return 3;
   }

@@ -117,12 +117,12 @@ class ExactSearch {
     set_quadratic(k, a, q, s.g[2]);
     for (int i = 0; i < 3; ++i) {
       const T over = s.g[0][i] - s.g[1][i];
-      s.g[3][i] = kind_ == PairKind::vertex_face ? over - s.g[2][i] : over;
+      s.g[3][i] = kind_ != PairKind::edge_edge ? over - s.g[2][i] : over;
       s.g[4][i] = s.g[0][i] - s.g[2][i];
     }
     s.sign = 0;
     for (bool& x : s.open) x = true;
-    if (kind_ == PairKind::vertex_face) s.open[4] = false;
+    if (kind_ != PairKind::edge_edge) s.open[4] = false;
   }
 
   template <int D>

@@ -33,7 +33,7 @@ bool coplanar_touch(PairKind kind, const RelativeVectors<C>& r) {
     const int s = sign_of(n[k]);
     if (s == 0) continue;
     if (s * sign_of(u[k]) < 0 || s * sign_of(v[k]) < 0) return false;
-    if (kind == PairKind::vertex_face) return s * sign_of(n[k] - u[k] - v[k]) >= 0;
+    if (kind != PairKind::edge_edge) return s * sign_of(n[k] - u[k] - v[k]) >= 0;
     return s * sign_of(n[k] - u[k]) >= 0 && s * sign_of(n[k] - v[k]) >= 0;
   }
   PointAndSegment<C> segments[4];

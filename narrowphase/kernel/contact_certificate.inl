@@ -142,8 +142,10 @@ inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
   return select(changes & inside & (width <= V::all(1.0 / 64)), hi, V::all(2));
 }
 
-template <int K>
-inline void certify_all(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+// Sets touched_by of results that are contacts without separation, by `touched_by_of` of four pairs at once.
+template <class TouchedBy>
+inline void certify_contacts(const KernelPairs& pairs, const int* subset, int count, KernelResult* results,
+                             TouchedBy&& touched_by_of) {
   int owner[4], waiting = 0;
   const auto flush = [&] {
     if (waiting == 0) return;
@@ -154,7 +156,7 @@ inline void certify_all(const KernelPairs& pairs, const int* subset, int count, 
       rows[l] = subset[i];
       t[l] = results[i].t;
     }
-    touched_by<K>(pairs, rows, D4::load(t)).store(touched);
+    touched_by_of(pairs, rows, D4::load(t)).store(touched);
     for (int l = 0; l < waiting; ++l) results[owner[l]].touched_by = touched[l];
     waiting = 0;
   };
@@ -164,4 +166,10 @@ inline void certify_all(const KernelPairs& pairs, const int* subset, int count, 
     if (waiting == 4) flush();
   }
   flush();
+}
+
+template <int K>
+inline void certify_all(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
+  certify_contacts(pairs, subset, count, results,
+                   [](const KernelPairs& p, const int* rows, D4 t) { return touched_by<K>(p, rows, t); });
 }

@@ -5,8 +5,9 @@
 
 namespace onset {
 
-// Pairs of one kind, with vertices v, f0, f1, f2 or a0, a1, b0, b1. Lengths are model lengths, unless they
-// are scaled: in units of the pair.
+// Pairs of one kind, with vertices v, f0, f1, f2 or a0, a1, b0, b1, or in the plane v, e0, e1, e1: as a face
+// of two corners, which all but certify and contact_geometry take it for. Lengths are model lengths, unless
+// they are scaled: in units of the pair.
 struct KernelPairs {
   // Rows of kMotionStride doubles a vertex.
   const double* x;
@@ -102,7 +103,8 @@ struct KernelsOfKind {
 
 struct KernelTable {
   const char* name;
-  KernelsOfKind of_kind[2];
+  // By PairKind.
+  KernelsOfKind of_kind[3];
 };
 
 const KernelTable& scalar_kernels();

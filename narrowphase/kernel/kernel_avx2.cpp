@@ -4,7 +4,7 @@
 
 namespace onset {
 const KernelTable& avx2_kernels() {
-  static const KernelTable table{"avx2", {avx2::kKernels<3>, avx2::kKernels<4>}};
+  static const KernelTable table{"avx2", {avx2::kKernels<3>, avx2::kKernels<4>, avx2::kKernelsInPlane}};
   return table;
 }
 }  // namespace onset

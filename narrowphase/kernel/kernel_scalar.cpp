@@ -4,7 +4,8 @@
 
 namespace onset {
 const KernelTable& scalar_kernels() {
-  static const KernelTable table{"scalar", {scalar::kKernels<3>, scalar::kKernels<4>}};
+  static const KernelTable table{"scalar",
+                                 {scalar::kKernels<3>, scalar::kKernels<4>, scalar::kKernelsInPlane}};
   return table;
 }
 }  // namespace onset

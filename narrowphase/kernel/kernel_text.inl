@@ -17,12 +17,15 @@ namespace {
 #include "narrowphase/kernel/cull.inl"
 #include "narrowphase/kernel/contact_certificate.inl"
 #include "narrowphase/kernel/contact_geometry.inl"
+#include "narrowphase/kernel/in_plane.inl"
 // clang-format on
 
 // K corners: 3 of a vertex-face pair, 4 of two edges.
 template <int K>
 constexpr KernelsOfKind kKernels{cull_all<K>, advance_all<K>, certify_all<K>, contact_geometry_all<K>,
                                  closest_direction_of<K>};
+constexpr KernelsOfKind kKernelsInPlane{cull_all<3>, advance_all<3>, certify_in_plane,
+                                        contact_geometry_in_plane, closest_direction_of<3>};
 
 }  // namespace
 }  // namespace ONSET_ISA

@@ -6,9 +6,10 @@ namespace onset {
 
 double Extents::largest() const {
   double r = 0;
-  for (int a = 0; a < 3; ++a) r = std::max({r, vertex_face[a], edge_edge[a]});
+  for (int a = 0; a < 3; ++a) r = std::max(r, largest(a));
   return r;
 }
+double Extents::largest(int a) const { return std::max({vertex_face[a], edge_edge[a], vertex_edge[a]}); }
 
 Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
   Extents r;
@@ -33,7 +34,10 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
   }
   for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor 1 + 4u
     if (!mesh.faces.empty()) r.vertex_face[a] = (moved[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
-    if (!mesh.edges.empty()) r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);
+    if (mesh.dimension == 2)
+      r.vertex_edge[a] = (moved[a] * (1 + 0x1p-52) + edge[a] + gap) * (1 + 0x1p-51);
+    else if (!mesh.edges.empty())
+      r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);
   }
   return r;
 }

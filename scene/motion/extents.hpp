@@ -34,9 +34,10 @@ std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& eleme
 // `gap` apart: the sum of both swept extents and the gap (docs/theory.md, L31). Only primitives that take
 // part count.
 struct Extents {
-  std::array<double, 3> vertex_face{}, edge_edge{};
+  std::array<double, 3> vertex_face{}, edge_edge{}, vertex_edge{};
   // Returns the largest over kinds and axes.
   double largest() const;
+  double largest(int axis) const;
 };
 Extents corner_extents(const MeshData& mesh, const Motion& motion, double gap);
 

@@ -16,14 +16,15 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 
-void check_shape(const char* name, int num_vertices, const Positions& x) {
-  if (x.cols() == 3 && x.rows() == num_vertices) return;
+void check_shape(const char* name, int num_vertices, const Positions& x, int columns = 3) {
+  if (x.cols() == columns && x.rows() == num_vertices) return;
   std::string why = std::string(name) + " has " + std::to_string(x.rows()) + " rows of " +
                     std::to_string(x.cols()) + " coordinates; the mesh has " + std::to_string(num_vertices) +
-                    " vertices and needs one row of 3 for each";
-  if (x.rows() == 3 && x.cols() == num_vertices)
-    why += std::string(": pass ") + name + ".transpose(), or Positions(" + name +
-           ".data(), #V) where it is column-major";
+                    " vertices" + (columns == 2 ? " in the plane" : "") + " and needs one row of " +
+                    std::to_string(columns) + " for each";
+  if (x.rows() == columns && x.cols() == num_vertices)
+    why += std::string(": pass ") + name + ".transpose(), or Positions(" + name + ".data(), #V" +
+           (columns == 2 ? ", 2" : "") + ") where it is column-major";
   throw std::invalid_argument(why);
 }
 
@@ -35,6 +36,7 @@ std::array<int, 3> canonical_axes(const Motion& m) {
       for (const double* x : {m.t0(v), m.t1(v)}) lo = std::min(lo, x[a]), hi = std::max(hi, x[a]);
     width[a] = hi - lo;
   }
+  if (m.in_plane) width[2] = -1;
   return widest_first(width, m.num_vertices,
                       [&](int v, int end, int a) { return (end == 0 ? m.t0(v) : m.t1(v))[a]; });
 }
@@ -68,8 +70,9 @@ void find_bad_vertex(Motion& m) {
 
 // Finds the canonical axes from the free vertices and what is known of the others. Returns false where a
 // position is not usable.
-bool axes_around(const PrimitiveFilter& filter, const StaticMotion& still, const Positions& x_t0,
+bool axes_around(const MeshData& mesh, const StaticMotion& still, const Positions& x_t0,
                  const Positions& x_t1, std::array<int, 3>& axes) {
+  const PrimitiveFilter& filter = *mesh.filter;
   std::array<double, 3> width{};
   for (int a = 0; a < 3; ++a) {
     double lo = still.lo[a], hi = still.hi[a];
@@ -80,6 +83,7 @@ bool axes_around(const PrimitiveFilter& filter, const StaticMotion& still, const
       }
     width[a] = hi - lo;
   }
+  if (mesh.dimension == 2) width[2] = -1;
   axes = widest_first(width, int(x_t0.rows()),
                       [&](int v, int end, int a) { return end == 0 ? x_t0(v, a) : x_t1(v, a); });
   return true;
@@ -91,7 +95,8 @@ Motion motion_around(const MeshData& mesh, std::shared_ptr<const StaticMotion> s
                      const Positions& x_t1) {
   const PrimitiveFilter& filter = *mesh.filter;
   Motion m;
-  if (!axes_around(filter, *still, x_t0, x_t1, m.axes)) return {};
+  m.in_plane = mesh.dimension == 2;
+  if (!axes_around(mesh, *still, x_t0, x_t1, m.axes)) return {};
   if (!still->stands_at(filter.static_ids, x_t0) || !still->stands_at(filter.static_ids, x_t1)) return {};
   m.x = still->take(m.axes);
   const bool reused = m.x.size() > 0;
@@ -112,24 +117,39 @@ Motion motion_around(const MeshData& mesh, std::shared_ptr<const StaticMotion> s
 }
 
 void check_rows(const MeshData& mesh, const char* name, const Positions& x) {
-  if (x.cols() == 3 && x.rows() != mesh.num_vertices && x.rows() == mesh.num_full_vertices)
+  if (x.cols() == mesh.dimension && x.rows() != mesh.num_vertices && x.rows() == mesh.num_full_vertices)
     throw std::invalid_argument(std::string(name) + " has the " + std::to_string(x.rows()) +
                                 " rows of the full mesh; the surface has " +
                                 std::to_string(mesh.num_vertices) + ": pass Mesh::surface_positions(" + name +
                                 ")");
-  check_shape(name, mesh.num_vertices, x);
+  check_shape(name, mesh.num_vertices, x, mesh.dimension);
 }
 
+Motion make_motion_of(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1);
+
 }  // namespace
+
+Positions in_space(const MeshData& mesh, const char* name, const Positions& x) {
+  check_rows(mesh, name, x);
+  return mesh.dimension == 2 ? x.in_space() : x;
+}
 
 Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
   check_rows(mesh, "x_t0", x_t0);
   check_rows(mesh, "x_t1", x_t1);
+  if (mesh.dimension == 2) return make_motion_of(mesh, x_t0.in_space(), x_t1.in_space());
+  return make_motion_of(mesh, x_t0, x_t1);
+}
+
+namespace {
+
+// x_t0 and x_t1 are checked and have three columns.
+Motion make_motion_of(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
   const bool cached = mesh.filter->has_static();
   auto still = cached ? mesh.static_cache->motion.get() : nullptr;
   if (still)
     if (Motion m = motion_around(mesh, still, x_t0, x_t1); m.static_part) return m;
-  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1);
+  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1, mesh.dimension == 2);
   if (m.status != Outcome::free) return m;
   bool same = still != nullptr;
   for (std::size_t k = 0; k < mesh.filter->static_ids.size(); ++k) {
@@ -149,11 +169,14 @@ Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions&
   return m;
 }
 
-Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1) {
+}  // namespace
+
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane) {
   check_shape("x_t0", num_vertices, x_t0);
   check_shape("x_t1", num_vertices, x_t1);
   Motion m;
   m.num_vertices = num_vertices;
+  m.in_plane = in_plane;
   m.x = AlignedArray<double>(std::size_t(num_vertices) * kMotionStride);
   parallel_ranges(num_vertices, kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v) {

@@ -30,6 +30,8 @@ struct Motion {
   int num_vertices = 0;
   // axes[i] is the caller's column that is stored as axis i.
   std::array<int, 3> axes{0, 1, 2};
+  // Whether the third axis is a plane's, where all is 0, which then stays the third.
+  bool in_plane = false;
   // free, non_finite or out_of_range; not free: the first such vertex is bad_vertex.
   Outcome status = Outcome::free;
   int bad_vertex = -1;
@@ -46,7 +48,11 @@ struct Motion {
 };
 
 // Makes the motion from x_t0 to x_t1. Throws std::invalid_argument unless both have num_vertices rows of 3.
-Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1);
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane = false);
+
+// Checks that x has one row of mesh.dimension coordinates for each vertex, else throws std::invalid_argument,
+// and returns it in three columns.
+Positions in_space(const MeshData& mesh, const char* name, const Positions& x);
 
 // Does the same for a mesh and keeps its static part there. Throws also where a static vertex moves, naming
 // it.
@@ -65,7 +71,7 @@ bool any_across(int first, int count, Same&& same) {
   return false;
 }
 // Returns how many of the four vertices of a pair are on its first side.
-inline int points_of_first_side(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
+inline int points_of_first_side(PairKind kind) { return kind == PairKind::edge_edge ? 2 : 1; }
 // Compares exactly; zeros of either sign are alike.
 inline bool at_one_place(const double* x, const double* y) {
   return x[0] == y[0] && x[1] == y[1] && x[2] == y[2];

@@ -72,8 +72,7 @@ Accuracy accuracy_of(const MeshData& mesh, const Motion& motion, const Options& 
   r.extent = extents.largest();
   r.tolerance = absolute_tolerance(options, r.extent);
   for (std::size_t a = 0; a < 3; ++a)  // 8u R + 4 eta (docs/theory.md, L5)
-    r.error_bound[std::size_t(motion.axes[a])] =
-        0x1p-50 * std::max(extents.vertex_face[a], extents.edge_edge[a]) + 4 * 0x1p-1074;
+    r.error_bound[std::size_t(motion.axes[a])] = 0x1p-50 * extents.largest(int(a)) + 4 * 0x1p-1074;
   return r;
 }
 

@@ -21,7 +21,7 @@ double norm_ratio(const Options& options) { return options.norm == Norm::maximum
 // Returns the Euclidean separation of a pair, rounded up; exact where there is nothing to add.
 double separation_of(const CloseInput& in, const Pair& pair) {
   const int* v = pair.vertices.data();
-  const int side = pair.kind == PairKind::vertex_face ? 1 : 2;
+  const int side = pair.kind != PairKind::edge_edge ? 1 : 2;
   const double thickness = thickest(in.mesh.data(), v, v + side) + thickest(in.mesh.data(), v + side, v + 4);
   const double ratio = norm_ratio(in.options);
   if (ratio == 1 && thickness == 0) return in.options.min_separation;
@@ -69,7 +69,7 @@ Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& i
   static_assert(sizeof(ClosePair) == 88, "as documented");
   const std::size_t most = std::size_t(input.options.memory_limit / std::int64_t(sizeof(ClosePair)));
   auto all = gather<ClosePair>(
-      candidates, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+      candidates, {kStepKinds.begin(), kStepKinds.end()}, most, budget,
       [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<ClosePair>& close) {
         for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
       },

@@ -41,12 +41,11 @@ void put(const ContactGeometry& geometry, Contact& contact) {
 
 void fill_contacts(const Mesh& mesh, const Motion& motion, const Options& options,
                    const std::vector<FoundPair>& found, const Stop& stop, ActiveSet& set) {
-  const auto up_to = [&](const auto& pairs, PairKind kind) {
-    return std::size_t(std::partition_point(pairs.begin(), pairs.end(),
-                                            [&](const auto& pair) { return pair.kind <= kind; }) -
-                       pairs.begin());
+  // Returns where the pairs of a kind end, which are sorted by kind.
+  const auto end_of = [](PairKind kind, const auto& pairs) {
+    const auto is_no_later = [&](const auto& pair) { return pair.kind <= kind; };
+    return std::size_t(std::partition_point(pairs.begin(), pairs.end(), is_no_later) - pairs.begin());
   };
-  const std::size_t faces = up_to(found, PairKind::vertex_face), edges = up_to(found, PairKind::edge_edge);
   const PlaneGeometries planes(mesh.data(), motion, options);
   set.contacts.reserve(found.size());
   while (set.size() < found.size() && !stop.requested()) {
@@ -60,19 +59,20 @@ void fill_contacts(const Mesh& mesh, const Motion& motion, const Options& option
         put(found[i].result, contacts[i]);
       }
       while (first < last) {
-        const std::size_t of_kind = first < faces ? faces : first < edges ? edges : last;
-        const std::size_t end = std::min({first + kRowsAtOnce, last, of_kind});
-        if (first < edges)
-          fill_geometry(motion, options.instruction_set, contacts + first, contacts + end);
-        else
+        const PairKind kind = found[first].kind;
+        const std::size_t end = std::min({first + kRowsAtOnce, last, end_of(kind, found)});
+        if (kind == PairKind::vertex_plane)
           planes.fill(contacts + first, contacts + end);
+        else
+          fill_geometry(motion, options.instruction_set, contacts + first, contacts + end);
         first = end;
       }
     });
   }
-  const std::size_t f = up_to(set.contacts, PairKind::vertex_face),
-                    e = up_to(set.contacts, PairKind::edge_edge);
-  set.stats.contacts = {std::int64_t(f), std::int64_t(e - f), std::int64_t(set.size() - e)};
+  const auto end = [&](PairKind kind) { return std::int64_t(end_of(kind, set.contacts)); };
+  const std::int64_t faces = end(PairKind::vertex_face), edges = end(PairKind::edge_edge),
+                     in_plane = end(PairKind::vertex_edge);
+  set.stats.contacts = {faces, edges - faces, in_plane - edges, std::int64_t(set.size()) - in_plane};
 }
 
 }  // namespace onset

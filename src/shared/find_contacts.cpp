@@ -13,9 +13,7 @@ namespace {
 
 // Returns one of how many blocks is sampled. Of many blocks fewer will do: a few hundred tell as much.
 constexpr std::size_t kManyBlocks = 512;
-std::size_t sampled_stride(const BroadPhase& broad) {
-  return broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge) < kManyBlocks ? 64 : 256;
-}
+std::size_t sampled_stride(const BroadPhase& broad) { return all_blocks(broad) < kManyBlocks ? 64 : 256; }
 // With a t_max beyond this, new boxes cost more than they spare.
 constexpr double kShrinksUpTo = 0.5;
 

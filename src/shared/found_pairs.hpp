@@ -24,14 +24,11 @@ struct FoundPair {
   PairResult result;
 };
 
-// One number orders pairs as (kind, a, b) does, since ids are not negative: 2 bits of the kind, 31 of each.
+// One number orders pairs as (kind, a, b) does, since ids are not negative and kinds less than four.
 inline std::uint64_t order_of(PairKind kind, IdPair pair) {
-  const std::uint64_t place = kind == PairKind::vertex_plane ? 3 : std::uint64_t(kind);
-  return place << 62 | std::uint64_t(pair.a) << 31 | std::uint64_t(pair.b);
+  return std::uint64_t(kind) << 62 | std::uint64_t(pair.a) << 31 | std::uint64_t(pair.b);
 }
-inline PairKind kind_of_order(std::uint64_t order) {
-  return order >> 62 == 3 ? PairKind::vertex_plane : PairKind(order >> 62);
-}
+inline PairKind kind_of_order(std::uint64_t order) { return PairKind(order >> 62); }
 
 // Orders by (kind, a, b), as an active set is.
 inline bool before(const FoundPair& x, const FoundPair& y) {

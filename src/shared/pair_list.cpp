@@ -42,8 +42,8 @@ bool cull_into(const PairSource& broad, const std::vector<CulledList>& lists, st
   const auto key = [](const IdPair& p) { return std::uint64_t(p.a) << 32 | std::uint64_t(p.b); };
   std::atomic<std::int64_t> room{most};
   const auto ended = [&] { return room < 0; };
-  budget.begin_traversal(broad.blocks(PairKind::vertex_face) + broad.blocks(PairKind::edge_edge));
-  for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
+  budget.begin_traversal(all_blocks(broad));
+  for (const PairKind kind : kStepKinds) {
     std::vector<Parts<IdPair>> parts(lists.size());
     const auto cull = [&](Task& task, const IdPair* pairs, std::size_t count) {
       for (std::size_t i = 0; i < lists.size(); ++i) {

@@ -1,6 +1,7 @@
 // A list of pairs as a source: found once and streamed again for every step size.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "broadphase/broad_phase.hpp"
@@ -19,16 +20,15 @@ class PairList final : public PairSource {
   std::size_t blocks(PairKind kind) const override;
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override;
 
-  const std::vector<IdPair>& of(PairKind kind) const {
-    return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_;
-  }
-  std::vector<IdPair>& of(PairKind kind) { return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_; }
+  const std::vector<IdPair>& of(PairKind kind) const { return pairs_[std::size_t(kind)]; }
+  std::vector<IdPair>& of(PairKind kind) { return pairs_[std::size_t(kind)]; }
   PairCounts counts() const {
-    return {std::int64_t(vertex_face_.size()), std::int64_t(edge_edge_.size()), 0};
+    const auto count = [&](PairKind kind) { return std::int64_t(of(kind).size()); };
+    return {count(PairKind::vertex_face), count(PairKind::edge_edge), count(PairKind::vertex_edge)};
   }
 
  private:
-  std::vector<IdPair> vertex_face_, edge_edge_;
+  std::array<std::vector<IdPair>, kStepKinds.size()> pairs_;
 };
 
 // A list for the pairs that the culls of `narrow` cannot certify.

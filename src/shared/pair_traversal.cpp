@@ -37,7 +37,9 @@ class PairTraversal {
         t_max_(t_max),
         wave_t_max_(t_max),
         found_(bounds.most) {
-    budget.begin_traversal(count(PairKind::vertex_face) + count(PairKind::edge_edge));
+    std::size_t blocks = 0;
+    for (const PairKind kind : kStepKinds) blocks += count(kind);
+    budget.begin_traversal(blocks);
   }
 
   void run(PairKind kind, NarrowPhaseStats& stats) {
@@ -235,6 +237,7 @@ TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narro
   PairTraversal traversal(pairs, narrow, collect, t_max, budget, stride, bounds);
   traversal.run(PairKind::vertex_face, result.vertex_face);
   traversal.run(PairKind::edge_edge, result.edge_edge);
+  traversal.run(PairKind::vertex_edge, result.vertex_edge);
   if (collect == Collect::all)
     result.found = traversal.take();
   else
@@ -253,20 +256,23 @@ NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, c
 }
 
 void copy_counts(const TraversalResult& traversal, Stats& stats) {
-  const auto both = [&](std::int64_t NarrowPhaseStats::*field) {
-    return PairCounts{traversal.vertex_face.*field, traversal.edge_edge.*field, 0};
+  const auto each = [&](std::int64_t NarrowPhaseStats::*field) {
+    return PairCounts{traversal.vertex_face.*field, traversal.edge_edge.*field, traversal.vertex_edge.*field, 0};
   };
-  stats.candidates = both(&NarrowPhaseStats::candidates);
-  stats.after_culls = both(&NarrowPhaseStats::after_culls);
-  stats.inclusion = both(&NarrowPhaseStats::inclusion);
-  stats.contacts = both(&NarrowPhaseStats::contacts);
-  stats.gave_up = both(&NarrowPhaseStats::gave_up);
-  stats.checks = both(&NarrowPhaseStats::checks).total();
-  stats.max_checks_of_a_pair = std::max(traversal.vertex_face.most_checks, traversal.edge_edge.most_checks);
-  for (std::size_t k = 0; k < stats.checks_histogram.size(); ++k)
-    stats.checks_histogram[k] = traversal.vertex_face.histogram[k] + traversal.edge_edge.histogram[k];
-  stats.achieved_tolerance =
-      std::max(traversal.vertex_face.achieved_tolerance, traversal.edge_edge.achieved_tolerance);
+  stats.candidates = each(&NarrowPhaseStats::candidates);
+  stats.after_culls = each(&NarrowPhaseStats::after_culls);
+  stats.inclusion = each(&NarrowPhaseStats::inclusion);
+  stats.contacts = each(&NarrowPhaseStats::contacts);
+  stats.gave_up = each(&NarrowPhaseStats::gave_up);
+  stats.checks = each(&NarrowPhaseStats::checks).total();
+  stats.max_checks_of_a_pair = 0, stats.achieved_tolerance = 0, stats.checks_histogram.fill(0);
+  for (const PairKind kind : kStepKinds) {
+    const NarrowPhaseStats& here = traversal.of(kind);
+    stats.max_checks_of_a_pair = std::max(stats.max_checks_of_a_pair, here.most_checks);
+    stats.achieved_tolerance = std::max(stats.achieved_tolerance, here.achieved_tolerance);
+    for (std::size_t k = 0; k < stats.checks_histogram.size(); ++k)
+      stats.checks_histogram[k] += here.histogram[k];
+  }
 }
 
 Pair to_pair(const Mesh& mesh, const FoundPair& f) {
@@ -274,9 +280,10 @@ Pair to_pair(const Mesh& mesh, const FoundPair& f) {
 }
 
 void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats) {
-  const bool edges = traversal.edge_edge.most_checks > traversal.vertex_face.most_checks;
-  const IdPair pair = edges ? traversal.edge_edge.worst : traversal.vertex_face.worst;
-  const PairKind kind = edges ? PairKind::edge_edge : PairKind::vertex_face;
+  PairKind kind = PairKind::vertex_face;
+  for (const PairKind other : kStepKinds)
+    if (traversal.of(other).most_checks > traversal.of(kind).most_checks) kind = other;
+  const IdPair pair = traversal.of(kind).worst;
   if (pair.a >= 0) stats.worst = Pair{kind, pair.a, pair.b, pair_vertices(mesh.data(), kind, pair)};
 }
 

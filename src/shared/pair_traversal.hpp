@@ -46,7 +46,12 @@ struct TraversalResult {
   std::vector<FoundPair> found;
   // With Collect::first and any.
   Limits limits;
-  NarrowPhaseStats vertex_face, edge_edge;
+  NarrowPhaseStats vertex_face, edge_edge, vertex_edge;
+  const NarrowPhaseStats& of(PairKind kind) const {
+    return kind == PairKind::vertex_face ? vertex_face
+           : kind == PairKind::edge_edge ? edge_edge
+                                         : vertex_edge;
+  }
 };
 
 // What else bounds a traversal.
@@ -78,7 +83,7 @@ inline double latest_time(const PairResult& r) {
   return r.certainty == Certainty::certain ? r.toi_hi : r.toi;
 }
 
-// Copies the counts of both kinds of pairs.
+// Copies the counts of all kinds of pairs.
 void copy_counts(const TraversalResult& traversal, Stats& stats);
 // Returns the pair as callers see it, with its vertices.
 Pair to_pair(const Mesh& mesh, const FoundPair& found);

@@ -79,7 +79,7 @@ Gathered<Found> gather(const PairSource& pairs, const std::vector<PairKind>& kin
                        Budget& budget, const Visit& visit, const IdsOf& ids_of) {
   constexpr std::size_t kBlocksATask = 4;
   Gathered<Found> all;
-  std::array<Parts<Found>, 3> parts;
+  std::array<Parts<Found>, kPairKinds> parts;
   std::atomic<std::size_t> count{0};
   std::size_t blocks = 0;
   for (const PairKind kind : kinds) blocks += pairs.blocks(kind);

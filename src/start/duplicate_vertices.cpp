@@ -115,14 +115,15 @@ std::vector<std::vector<int>> shared_places(const Positions& x, const Stop& stop
 
 std::vector<std::array<int, 2>> duplicate_vertices(const Positions& x) {
   const FloatEnvironment environment;
-  if (x.cols() != 3) throw std::invalid_argument("x has " + std::to_string(x.cols()) + " columns, not 3");
+  if (x.cols() != 3 && x.cols() != 2)
+    throw std::invalid_argument("x has " + std::to_string(x.cols()) + " columns, not 3");
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
-    for (int a = 0; a < 3; ++a)
+    for (int a = 0; a < x.cols(); ++a)
       if (!std::isfinite(x(v, a)))
         throw std::invalid_argument("x row " + std::to_string(v) + ": " + std::to_string(x(v, a)) +
                                     " is not finite");
   std::vector<std::array<int, 2>> pairs;
-  for (const std::vector<int>& here : shared_places(x))
+  for (const std::vector<int>& here : shared_places(x.cols() == 2 ? x.in_space() : x))
     for (std::size_t j = 1; j < here.size(); ++j)
       for (std::size_t i = 0; i < j; ++i) pairs.push_back({here[i], here[j]});
   std::sort(pairs.begin(), pairs.end());

@@ -34,7 +34,7 @@ class Near {
  private:
   bool within(const ClosePair& p, const double* const (&x)[4]) const {
     if (options_.norm != Norm::maximum) return true;
-    const int *v = p.vertices.data(), side = p.kind == PairKind::vertex_face ? 1 : 2;
+    const int *v = p.vertices.data(), side = p.kind != PairKind::edge_edge ? 1 : 2;
     const double thickness = thickest(mesh_.data(), v, v + side) + thickest(mesh_.data(), v + side, v + 4);
     return within_cube(p.kind, x, (options_.min_separation + thickness) * (1 + 0x1p-50));
   }
@@ -51,7 +51,7 @@ Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& 
                              Budget& budget) {
   const Near near(mesh, rest.motion, options);
   return gather<NearPair>(
-      *rest.broad, {PairKind::vertex_face, PairKind::edge_edge}, most, budget,
+      *rest.broad, {kStepKinds.begin(), kStepKinds.end()}, most, budget,
       [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) {
         near.add_near(kind, pairs, count, found);
       },

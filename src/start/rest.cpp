@@ -18,7 +18,7 @@ void Rest::find(const Mesh& mesh, Pairs pairs, const Options& options, Budget& b
     input.inflation = 0.5 * options.min_separation * (1 + 0x1p-50) + 0x1p-1074;
   input.test = BoxTest::swept;
   input.instruction_set = options.instruction_set;
-  input.edges_against_faces = edge_face;
+  input.intersections = edge_face;
   broad = make_broad_phase(options.broad_phase, input, budget.stop());
 }
 
