@@ -8,7 +8,7 @@
 #include "narrowphase/at_rest/edge_face.hpp"
 #include "scene/pairs/vertex_rings.hpp"
 #include "src/shared/checked_options.hpp"
-#include "src/shared/rest_limits.hpp"
+#include "src/shared/rest/rest_limits.hpp"
 #include "src/start/places.hpp"
 #include "src/start/rest_pairs.hpp"
 #include "src/start/start_findings.hpp"

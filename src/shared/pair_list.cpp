@@ -12,7 +12,7 @@
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/pair_traversal.hpp"
-#include "src/shared/rest_limits.hpp"
+#include "src/shared/rest/rest_limits.hpp"
 #include "src/shared/visit_pairs.hpp"
 
 namespace onset {

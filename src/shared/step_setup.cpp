@@ -11,7 +11,7 @@
 #include "scene/pairs/separation.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
-#include "src/shared/rest_limits.hpp"
+#include "src/shared/rest/rest_limits.hpp"
 
 namespace onset {
 

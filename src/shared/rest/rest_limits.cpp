@@ -1,4 +1,4 @@
-#include "src/shared/rest_limits.hpp"
+#include "src/shared/rest/rest_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,9 +32,9 @@ class RestSearch {
                             {mesh.rest->x.data(), mesh.num_vertices})) {}
 
   std::shared_ptr<const RestLimits> run() {
-    // Every pair whose limit is below `reach` must be among the candidates, so that which ones are listed does
-    // not depend on what earlier calls asked for. Its lower bound is below (reach + 2^-1072) / share (1 +
-    // 2^-49), and its distance no more than 64u rho beyond that (ClosestPoints; 48u in the maximum norm,
+    // Every pair whose limit is below `reach` must be among the candidates, so that which ones are listed
+    // does not depend on what earlier calls asked for. Its lower bound is below (reach + 2^-1072) / share (1
+    // + 2^-49), and its distance no more than 64u rho beyond that (ClosestPoints; 48u in the maximum norm,
     // docs/theory.md, L44), where rho is at most 2 sqrt(3) times the largest coordinate: together 222u of it.
     BroadPhaseInput input{mesh_, motion_};
     const double beyond = 0x1p-44 * largest_coordinate() + 0x1p-1060;
