@@ -12,7 +12,7 @@
 namespace onset {
 namespace {
 
-constexpr std::size_t kGrain = 256;
+int vertices_each(Primitive kind) { return kind == Primitive::vertex ? 1 : kind == Primitive::edge ? 2 : 3; }
 
 std::size_t proper_edges(const MeshData& mesh) { return mesh.edges.size() - std::size_t(mesh.num_points); }
 
@@ -21,7 +21,7 @@ class Around {
  public:
   Around(const MeshData& mesh, Primitive kind) : first_(std::size_t(mesh.num_vertices) + 1, 0) {
     const std::size_t count = kind == Primitive::edge ? proper_edges(mesh) : mesh.faces.size();
-    const int each = kind == Primitive::edge ? 2 : 3;
+    const int each = vertices_each(kind);
     const auto visit = [&](auto&& f) {
       for (std::size_t id = 0; id < count; ++id) {
         const std::array<int, 3> v = primitive_vertices(mesh, kind, int(id));
@@ -106,9 +106,10 @@ bool within_rings(const MeshData& mesh, PairKind kind, int a, int b) {
   if (!mesh.rings) return false;
   const auto first = primitive_vertices(mesh, first_primitive(kind), a);
   const auto second = primitive_vertices(mesh, second_primitive(kind), b);
-  for (const int v : first)
-    for (const int w : second)
-      if (v == w || mesh.rings->near(v, w)) return true;
+  for (int i = 0; i < vertices_each(first_primitive(kind)); ++i)
+    for (int j = 0; j < vertices_each(second_primitive(kind)); ++j)
+      if (const int v = first[std::size_t(i)], w = second[std::size_t(j)]; v == w || mesh.rings->near(v, w))
+        return true;
   return false;
 }
 
@@ -120,7 +121,7 @@ std::int64_t count_within_rings(const MeshData& mesh, PairKind kind,
   const std::size_t others = faces ? mesh.faces.size() : proper_edges(mesh);
   std::atomic<std::int64_t> total{0};
   const std::size_t firsts = faces ? std::size_t(mesh.num_vertices) : others;
-  parallel_ranges(firsts, kGrain, [&](std::size_t from, std::size_t to) {
+  const auto count = [&](std::size_t from, std::size_t to) {
     RingSearch search(graph, mesh.num_vertices);
     std::vector<std::size_t> seen(others, firsts);
     std::int64_t n = 0;
@@ -134,7 +135,9 @@ std::int64_t count_within_rings(const MeshData& mesh, PairKind kind,
         }
     }
     total += n;
-  });
+  };
+  // A chunk clears what it needs of the whole mesh first.
+  isolated([&] { parallel_ranges(firsts, std::max<std::size_t>(256, firsts / 64), count); });
   return total;
 }
 

@@ -1,7 +1,7 @@
 // Rules that single out pairs, alone and together, in random scenes: every call against exact contacts, where
 // each pair keeps its own separation, or is left out as a neighbour.
 #include "tests/catch.hpp"
-#include "tests/fuzz.hpp"
+#include "tests/oracle/promises.hpp"
 #include "tests/steps/support/pair_separations.hpp"
 #include "tests/steps/support/promises.hpp"
 #include "tests/steps/support/random_scenes.hpp"
