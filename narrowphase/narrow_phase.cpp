@@ -77,7 +77,18 @@ void NarrowPhase::gather(PairKind kind, const IdPair* pairs, std::size_t count,
       put_vertices(in_.mesh, PairKind::edge_edge, pairs[i], &scratch.vertices[4 * i]);
   else
     for (std::size_t i = 0; i < count; ++i) put_vertices(in_.mesh, kind, pairs[i], &scratch.vertices[4 * i]);
+  gather_separations(kind, pairs, count, scratch);
+}
+
+void NarrowPhase::gather_separations(PairKind kind, const IdPair* pairs, std::size_t count,
+                                     NarrowPhaseScratch& scratch) const {
   scratch.separation.assign(count, in_.options.min_separation);
+  if (in_.rest != nullptr || (!in_.mesh.body_separations.empty() && !in_.ignores_bodies)) {
+    for (std::size_t i = 0; i < count; ++i)
+      scratch.separation[i] =
+          separation_of_pair(in_.mesh, in_.options, in_.rest, kind, pairs[i], &scratch.vertices[4 * i]);
+    return;
+  }
   if (in_.mesh.thickness.empty()) return;
   const int first_side = points_of_first_side(kind);
   for (std::size_t i = 0; i < count; ++i) {  // two sums: rounded up

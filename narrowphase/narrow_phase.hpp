@@ -10,6 +10,7 @@
 #include "scene/motion/motion.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_sink.hpp"
+#include "scene/pairs/separation.hpp"
 
 namespace onset {
 
@@ -35,6 +36,10 @@ struct NarrowPhaseInput {
   double gap_share = 0, rounding = 0;
   // Other pairs have no toi; null: all may have one.
   const PairPredicate* contacts = nullptr;
+  // What the shape at rest leaves of separations; null: all.
+  const RestLimits* rest = nullptr;
+  // Separations are Options::min_separation and thickness, whatever the bodies.
+  bool ignores_bodies = false;
 
   bool times_are_exact() const { return exact_times && options.exactness == Exactness::exact; }
   bool inclusion_only() const { return options.narrow_phase == NarrowPhaseMethod::inclusion; }
@@ -118,6 +123,8 @@ class NarrowPhase {
   void advance_exactly(PairKind kind, const KernelPairs& input, int survivors,
                        NarrowPhaseScratch& scratch) const;
   void gather(PairKind kind, const IdPair* pairs, std::size_t count, NarrowPhaseScratch& scratch) const;
+  void gather_separations(PairKind kind, const IdPair* pairs, std::size_t count,
+                          NarrowPhaseScratch& scratch) const;
 
   NarrowPhaseInput in_;
   const KernelTable* kernels_;

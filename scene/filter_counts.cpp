@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "scene/pairs/vertex_rings.hpp"
+
 namespace onset {
 namespace {
 
@@ -71,6 +73,8 @@ class FilterCounter {
                                                         : adjacent_vertices_of(Primitive::face);
     }
     count_excluded();
+    for (const PairKind kind : kStepKinds)
+      if (has_kind(mesh_, kind)) counts_of(kind).within_rings = count_rings(kind);
     if (!has_keys()) return;
     for (const Primitive p : kPrimitives) mark_idle(p, idle[std::size_t(p)]);
   }
@@ -239,7 +243,14 @@ class FilterCounter {
     }
   }
 
-  // Says whether only the names of the pair itself or of two of its vertices leave it out.
+  Count count_rings(PairKind kind) const {
+    if (!mesh_.rings) return 0;
+    return count_within_rings(mesh_, kind, [&](int a, int b) {
+      return only_by_name(kind, a, b) && !excluded_by_name(mesh_, kind, a, b);
+    });
+  }
+
+  // Says whether only the names of the pair itself or of two of its vertices, or rings, leave it out.
   bool only_by_name(PairKind kind, int a, int b) const {
     const Primitive p = first_primitive(kind), q = second_primitive(kind);
     if (p == q && a == b) return false;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/edges_of_faces.hpp"
+#include "scene/pairs/rest_limits.hpp"
 #include "scene/primitive.hpp"
 #include "scene/primitive_filter.hpp"
 #include "scene/rules.hpp"
@@ -137,6 +138,7 @@ const FilterCounts& Mesh::filter_counts() const noexcept { return data_->filter-
 
 void Mesh::release_memory() const noexcept {
   data_->broad_phases->clear();
+  if (data_->rest) data_->rest->limits.clear();
   if (!data_->static_cache) return;
   data_->static_cache->motion.clear();
   data_->static_cache->trees.clear();

@@ -14,6 +14,14 @@ namespace onset {
 
 struct MeshPlanes;       // scene/planes.hpp
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
+struct RestShape;        // scene/pairs/rest_limits.hpp
+class VertexRings;       // scene/pairs/vertex_rings.hpp
+
+// A separation of the pairs of two bodies, first <= second.
+struct SeparationOfBodies {
+  int first, second;
+  double separation;
+};
 
 // Returns the filter of a mesh without rules: see MeshData::filter.
 std::shared_ptr<const PrimitiveFilter> all_primitives();
@@ -32,6 +40,10 @@ struct MeshData {
   std::vector<std::array<int, 3>> faces;
   // A vertex each, >= 0; empty: none.
   std::vector<double> thickness;
+  // By (first, second), each once; in place of the separation of a call.
+  std::vector<SeparationOfBodies> body_separations;
+  // Null where the shape at rest lowers no separation.
+  std::shared_ptr<const RestShape> rest;
   // Whether vertices at one place at both ends of a motion count as one.
   bool weld = false;
 
@@ -47,6 +59,8 @@ struct MeshData {
   std::vector<std::array<int, 2>> excluded_bodies, excluded_vertices;
   // By kind; ids as in IdPair, sorted, each once.
   std::array<std::vector<std::array<int, 2>>, kPairKinds> excluded_pairs;
+  // Null where pairs are left out only for a vertex that they share.
+  std::shared_ptr<const VertexRings> rings;
 
   // As the rules have them.
   std::vector<Plane> planes;

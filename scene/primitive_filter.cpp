@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/filter_counts.hpp"
+#include "scene/pairs/vertex_rings.hpp"
 #include "scene/planes.hpp"
 #include "scene/static_cache.hpp"
 
@@ -23,7 +24,8 @@ bool needs_keys(const MeshData& m) {
     return std::find(flags.begin(), flags.end(), true) != flags.end();
   };
   return !m.group.empty() || any(m.is_static) || any(m.rigid) || any(m.no_self) ||
-         !m.excluded_bodies.empty() || !m.excluded_vertices.empty() || any_excluded_pair(m);
+         !m.excluded_bodies.empty() || !m.excluded_vertices.empty() || any_excluded_pair(m) ||
+         m.rings != nullptr;
 }
 
 std::vector<bool> marked(std::size_t size, const std::vector<std::array<int, 2>>& pairs) {
@@ -52,6 +54,7 @@ void make_keys(const MeshData& m, PrimitiveFilter& filter) {
         const std::size_t v = std::size_t(vertices[std::size_t(k)]);
         if (!m.group.empty()) key.group |= m.group[v], key.mask |= m.mask[v];
         if (!vertex_named.empty() && vertex_named[v]) key.flags |= kExcludedFlag;
+        if (m.rings && m.rings->has_neighbours(int(v))) key.flags |= kExcludedFlag;
       }
       keys[id] = key;
       filter.compares_keys =
@@ -158,7 +161,7 @@ bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b) {
   return false;
 }
 
-bool excluded(const MeshData& mesh, PairKind kind, int a, int b) {
+bool excluded_by_name(const MeshData& mesh, PairKind kind, int a, int b) {
   const auto& pairs = mesh.excluded_pairs[std::size_t(kind)];
   const std::array<int, 2> ids = kind == PairKind::edge_edge
                                      ? std::array<int, 2>{std::min(a, b), std::max(a, b)}
@@ -173,6 +176,10 @@ bool excluded(const MeshData& mesh, PairKind kind, int a, int b) {
     for (int w : second)
       if (named(mesh.excluded_vertices, v, w)) return true;
   return false;
+}
+
+bool excluded(const MeshData& mesh, PairKind kind, int a, int b) {
+  return excluded_by_name(mesh, kind, a, b) || within_rings(mesh, kind, a, b);
 }
 
 bool may_meet(const MeshData& mesh, PairKind kind, int a, int b) {

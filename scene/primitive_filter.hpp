@@ -19,7 +19,7 @@ struct PrimitiveKey {
 };
 // All vertices are static. It is the sign bit.
 inline constexpr int kStaticFlag = int(0x80000000u);
-// The primitive, a vertex of it or its body is named in an excluded pair.
+// The primitive, a vertex of it or its body is named in an excluded pair, or rings leave out neighbours.
 inline constexpr int kExcludedFlag = 1;
 
 struct PrimitiveFilter {
@@ -54,6 +54,8 @@ inline bool keys_meet(const PrimitiveKey& a, const PrimitiveKey& b) {
 bool share_vertex(const MeshData& mesh, PairKind kind, int a, int b);
 
 // Says whether an excluded pair names this pair, two of its vertices, or its bodies.
+bool excluded_by_name(const MeshData& mesh, PairKind kind, int a, int b);
+// Says whether that is so, or the two are neighbours on the mesh (CollisionRules::excluded_rings).
 bool excluded(const MeshData& mesh, PairKind kind, int a, int b);
 
 // Says whether a pair can be a candidate. This is the definition that every broad phase keeps to.

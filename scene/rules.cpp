@@ -8,6 +8,8 @@
 #include "base/float_environment.hpp"
 #include "scene/motion/motion.hpp"
 #include "scene/named_pairs.hpp"
+#include "scene/pairs/rest_limits.hpp"
+#include "scene/pairs/vertex_rings.hpp"
 
 namespace onset {
 
@@ -139,6 +141,65 @@ void apply_pairs(const CollisionRules& rules, MeshData& data) {
   data.excluded_pairs[std::size_t(kind)] = intersections.of(kind);
 }
 
+std::string out_of_range(const std::string& what, const char* range) {
+  return what + " is not a number " + range + ", at most 2^1020";
+}
+
+void apply_body_separations(const std::vector<BodySeparation>& list, MeshData& data) {
+  constexpr const char* kName = "body_separations";
+  const int bodies = count_bodies(data);
+  std::vector<std::pair<std::array<int, 2>, std::ptrdiff_t>> rows;
+  data.body_separations.clear();
+  for (std::size_t r = 0; r < list.size(); ++r) {
+    const BodySeparation& s = list[r];
+    for (const int b : {s.body_a, s.body_b})
+      if (b < 0 || b >= bodies)
+        reject_row(kName, std::ptrdiff_t(r),
+                   "id " + std::to_string(b) + " is out of range, there are " + std::to_string(bodies));
+    if (!(s.separation >= 0 && s.separation <= kMaxCoordinate))
+      reject_row(kName, std::ptrdiff_t(r), out_of_range(std::to_string(s.separation), ">= 0"));
+    rows.push_back({{std::min(s.body_a, s.body_b), std::max(s.body_a, s.body_b)}, std::ptrdiff_t(r)});
+  }
+  std::sort(rows.begin(), rows.end());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& [bodies_of_row, r] = rows[i];
+    if (i > 0 && rows[i - 1].first == bodies_of_row)
+      reject_row(kName, r,
+                 "bodies " + std::to_string(bodies_of_row[0]) + " and " + std::to_string(bodies_of_row[1]) +
+                     " are repeated");
+    data.body_separations.push_back({bodies_of_row[0], bodies_of_row[1], list[std::size_t(r)].separation});
+  }
+}
+
+void apply_rest(const CollisionRules& rules, MeshData& data) {
+  data.rest = nullptr;
+  if (!(rules.rest_share > 0 && rules.rest_share < 1))
+    throw std::invalid_argument("rest_share is " + std::to_string(rules.rest_share) +
+                                "; it must be in (0, 1)");
+  const Eigen::MatrixXd& x = rules.rest_positions;
+  if (x.size() == 0 && (x.rows() == 0 || data.num_vertices == 0)) return;
+  if (x.rows() != data.num_vertices || x.cols() != 3)
+    throw std::invalid_argument("rest_positions has " + std::to_string(x.rows()) + " rows of " +
+                                std::to_string(x.cols()) + " coordinates for " +
+                                std::to_string(data.num_vertices) + " vertices, not rows of 3");
+  auto rest = std::make_shared<RestShape>();
+  rest->share = rules.rest_share;
+  for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
+    for (int a = 0; a < 3; ++a) {
+      if (!(std::fabs(x(v, a)) <= kMaxCoordinate))
+        reject_row("rest_positions", v, out_of_range(std::to_string(x(v, a)), "of magnitude"));
+      rest->x.push_back(x(v, a));
+    }
+  data.rest = std::move(rest);
+}
+
+void apply_rings(int rings, MeshData& data) {
+  data.rings = nullptr;
+  if (rings < 0)
+    throw std::invalid_argument("excluded_rings is " + std::to_string(rings) + "; it must be >= 0");
+  if (rings > 0) data.rings = std::make_shared<const VertexRings>(data, rings, VertexRings::kMostPairs);
+}
+
 }  // namespace
 
 void apply_rules(const CollisionRules& rules, MeshData& data) {
@@ -149,11 +210,14 @@ void apply_rules(const CollisionRules& rules, MeshData& data) {
   if (!rules.static_vertices.empty())
     check_size("static_vertices", rules.static_vertices.size(), data.num_vertices, "vertices");
   data.is_static = rules.static_vertices;
+  apply_body_separations(rules.body_separations, data);
+  apply_rest(rules, data);
   apply_groups(rules, data);
   data.weld = rules.weld;
   data.excluded_vertices = checked_pairs("excluded_vertices", rules.excluded_vertices, data.num_vertices);
   apply_planes(rules.planes, data);
   apply_pairs(rules, data);
+  apply_rings(rules.excluded_rings, data);
 }
 
 }  // namespace onset

@@ -6,7 +6,9 @@
 #include "base/instruction_set.hpp"
 #include "base/radix_sort.hpp"
 #include "narrowphase/at_rest/edge_face.hpp"
+#include "scene/pairs/vertex_rings.hpp"
 #include "src/shared/checked_options.hpp"
+#include "src/shared/rest/rest_limits.hpp"
 #include "src/start/places.hpp"
 #include "src/start/rest_pairs.hpp"
 #include "src/start/start_findings.hpp"
@@ -33,6 +35,7 @@ struct Use {
 };
 
 bool joined(const MeshData& mesh, int v, int w) {
+  if (mesh.rings && mesh.rings->near(v, w)) return true;
   return std::binary_search(mesh.excluded_vertices.begin(), mesh.excluded_vertices.end(),
                             std::array<int, 2>{v, w});
 }
@@ -94,9 +97,11 @@ void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& 
     report.intersections = std::move(all.found), too_many = all.too_many;
   }
   rest.broad.reset();
+  const std::shared_ptr<const RestLimits> limits = rest_limits(mesh.data(), options, budget);
+  too_many = too_many || budget.outcome() == Outcome::out_of_memory;
   rest.find(mesh, Rest::Pairs::within_separation, options, budget);
   if (rest.broad) {
-    auto all = find_near(mesh, rest, options, most(options, sizeof(NearPair)), budget);
+    auto all = find_near(mesh, rest, options, limits.get(), most(options, sizeof(NearPair)), budget);
     too_many = too_many || all.too_many;
     std::size_t touching = 0;
     for (const NearPair& p : all.found) touching += p.touches;

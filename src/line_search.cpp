@@ -51,8 +51,10 @@ struct LineSearch::Impl {
   PairList pairs, near;  // may limit a step; may come within d_hat on the way
 
   NarrowPhaseInput input() const {
-    return stored_step_input(mesh.data(), setup->motion, setup->accuracy, options, options.gap_share,
-                             rounding);
+    NarrowPhaseInput r =
+        stored_step_input(mesh.data(), setup->motion, setup->accuracy, options, options.gap_share, rounding);
+    r.rest = setup->rest.get();
+    return r;
   }
   bool fill(Budget& budget);
   const PairSource& source(const PairList& list) const {
@@ -71,8 +73,10 @@ bool LineSearch::Impl::fill(Budget& budget) {
   Options beyond = options;
   beyond.min_separation = euclidean_reach(mesh.data(), options, options.d_hat, rounding);
   beyond.norm = Norm::euclidean;
-  const NarrowPhase far(
-      {mesh.data(), setup->motion, setup->accuracy.tolerance, setup->accuracy.extent, beyond});
+  NarrowPhaseInput wide{mesh.data(), setup->motion, setup->accuracy.tolerance, setup->accuracy.extent,
+                        beyond};
+  wide.ignores_bodies = true;  // the largest of their separations is in the reach
+  const NarrowPhase far(wide);
   lists.push_back({far, near});
   return cull_into(*setup->broad, lists, most, budget);
 }
@@ -169,7 +173,8 @@ ClosePairs LineSearch::close_pairs(double step) const {
     const std::vector<double> x = h.at(step);
     Budget budget(h.options);
     auto close =
-        find_close(h.source(h.near), {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options}, budget);
+        find_close(h.source(h.near),
+                   {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options, h.setup->rest.get()}, budget);
     r.pairs = std::move(close.found);
     r.outcome = close.too_many ? Outcome::out_of_memory : budget.outcome();
     r.seconds = clock.seconds();

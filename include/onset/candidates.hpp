@@ -12,8 +12,8 @@
 
 namespace onset {
 
-// The pairs whose swept boxes (of the motion, widened by half the separation each, and by half of what
-// storing positions in doubles can change) overlap and share no vertex.
+// The pairs whose swept boxes (of the motion, widened by half the largest separation each, and by half of
+// what storing positions in doubles can change) overlap and share no vertex.
 struct Candidates {
   // Vertex and face; two edges, the smaller id first; in the plane vertex and edge instead. Sorted.
   std::vector<std::array<int, 2>> vertex_face, edge_edge;

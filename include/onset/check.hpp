@@ -46,8 +46,8 @@ struct StartReport {
   std::vector<Intersection> intersections;
   // Pairs at distance exactly 0, by (kind, a, b); CollisionRules::excluded_pairs leaves them out.
   std::vector<Pair> touching;
-  // 0 < distance <= separation (min_separation + thickness, in the norm asked for), or beyond that by no more
-  // than rounding, by (kind, a, b).
+  // 0 < distance <= the pair's separation (min_separation + thickness, or what CollisionRules say of it), or
+  // beyond that by no more than rounding, by (kind, a, b).
   std::vector<ClosePair> within_separation;
   // {first vertex at a place, another one there}, by both. Not listed are those that CollisionRules::weld or
   // excluded_vertices joins, those that never meet (static, in one rigid body, in excluded bodies), and

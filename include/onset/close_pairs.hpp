@@ -24,7 +24,8 @@ struct ClosePair : Pair {
   // rounding (docs/theory.md, L42). Where the pair touches it may be a little more than 0, and then the sum
   // has no direction to speak of.
   double distance = 0;
-  // What the pair has to keep: Options::min_separation plus thickness, times sqrt(3) in the maximum norm.
+  // What the pair has to keep: Options::min_separation plus thickness, or what CollisionRules say of this
+  // pair, times sqrt(3) in the maximum norm.
   double separation = 0;
   // A certified lower bound of the exact distance less `separation`, within 2^-47 rho of it; 0 where there is
   // none to certify.

@@ -1,6 +1,7 @@
 // Who may meet whom, and at which distance: the rules of a scene, as data.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,14 @@ struct Plane {
   std::uint32_t group = ~0u, mask = ~0u;
 };
 
+// A separation for the pairs of two bodies, or of one body with itself.
+struct BodySeparation {
+  // Ids >= 0, in any order, the same for pairs within one body.
+  int body_a = 0, body_b = 0;
+  // Model length, in [0, 2^1020].
+  double separation = 0;
+};
+
 // What is left empty does not matter; the order in which fields are filled does not either. A mesh checks all
 // of it at once (Mesh::set_rules). A pair is left out of every call, and named by none, where any of the
 // rules says so; the primitives left with no partner get no box.
@@ -36,6 +45,22 @@ struct CollisionRules {
   // Thickness of each vertex (#V values >= 0, model length): a pair must stay apart by
   // Options::min_separation plus the largest thickness among the vertices of each of its two primitives.
   std::vector<double> thickness;
+  // Pairs of bodies with a separation of their own, larger or smaller, in place of Options::min_separation;
+  // each pair of bodies at most once. The thickness is added to it as well.
+  std::vector<BodySeparation> body_separations;
+
+  // The shape in which no pair presses: #V x 3, model length, finite; it sets no positions. With it, a mesh
+  // may be finer than the separation: what a pair must keep is at most rest_share, in (0, 1), times its
+  // distance in this shape, in the norm of the call, rounded down. (Options::min_separation, thickness and
+  // body_separations say what it must keep else; pairs farther apart at rest than that over rest_share keep
+  // all of it.) A pair that touches at rest, or is apart by no more than a few roundings of its size, has
+  // separation 0: it still may not touch. Distances up to which pairs are listed (d_hat) stay as they are,
+  // and are counted from the separation of each pair. The pairs are found by the first call with a larger
+  // separation, or another norm, than those before it, within the budgets of that call (12 bytes a pair of
+  // Options::memory_limit, twice as much while they are put in order), and stay with the mesh. They are few
+  // where excluded_rings leaves out the neighbours.
+  Eigen::MatrixXd rest_positions;
+  double rest_share = 0.5;
 
   // Bodies: one id >= 0 a vertex (#V values), the same for all vertices of an edge or face; empty: all is
   // body 0. Mesh::components() has the connected parts; Mesh::of_bodies(), which makes values of vertices of
@@ -66,6 +91,11 @@ struct CollisionRules {
   // duplicate_vertices() finds them.
   std::vector<std::array<int, 2>> excluded_vertices;
 
+  // Neighbours on the mesh that never meet: pairs with a vertex of one primitive and a vertex of the other
+  // that are joined by at most so many edges (>= 0), edges of faces and wires alike. 0: none but those that
+  // share a vertex, which never meet. Copies of a vertex are not joined. Of a surface, n leaves out the faces
+  // within the n-th ring of a vertex. At most 2^27 pairs of vertices may be so close, at 4 bytes each.
+  int excluded_rings = 0;
   // Planes, each of which meets every vertex, but for static ones and what groups, masks and excluded_pairs
   // leave out; bodies and welds do not matter. What a mesh has behind a plane at the start blocks steps as
   // what touches does. Edges and faces are beyond a plane where their vertices are.

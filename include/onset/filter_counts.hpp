@@ -21,8 +21,10 @@ struct PairFilterCounts {
   std::int64_t adjacent = 0;
   // Named by CollisionRules::excluded_bodies and the like.
   std::int64_t excluded = 0;
+  // Neighbours on the mesh (CollisionRules::excluded_rings).
+  std::int64_t within_rings = 0;
   std::int64_t may_meet() const noexcept {
-    return pairs - masked - both_static - same_body - adjacent - excluded;
+    return pairs - masked - both_static - same_body - adjacent - excluded - within_rings;
   }
 };
 

@@ -46,7 +46,7 @@ class ONSET_API Mesh {
   // Throws std::invalid_argument naming the row for an id out of [0, #V), a repeated vertex in a row, a wrong
   // number of columns, a face that has an edge which `edges` lacks, as its contacts would be lost
   // (complete_edges adds them), or what is wrong with the rules; std::runtime_error as Options::threads says,
-  // where it sorts the edges of many faces.
+  // where it sorts the edges of many faces, or counts neighbours (CollisionRules::excluded_rings).
   Mesh(std::ptrdiff_t vertices, const Indices& edges, const Indices& faces, const CollisionRules& rules = {});
   // As above with edges derived from the faces: onset::edges(faces), the order of igl::edges.
   Mesh(std::ptrdiff_t vertices, const Indices& faces, const CollisionRules& rules = {});
@@ -58,7 +58,7 @@ class ONSET_API Mesh {
   static Mesh in_plane(std::ptrdiff_t vertices, const Indices& edges, const CollisionRules& rules = {});
 
   // Replaces the rules. Throws std::invalid_argument naming the rule and the row, and then leaves the mesh as
-  // it was. O(#V + #E + #F), n log n with bodies.
+  // it was. O(#V + #E + #F), n log n with bodies, and the pairs within CollisionRules::excluded_rings.
   void set_rules(const CollisionRules& rules);
   const CollisionRules& rules() const noexcept;
 

@@ -52,10 +52,11 @@ struct Options {
   std::optional<double> tolerance;
   double relative_tolerance = 1e-6;
 
-  // d: model length, in [0, 2^1020], never reduced. A pair is reported if it ever comes as close as d (plus
-  // the thickness of its vertices, CollisionRules::thickness), measured in `norm`. It is never reported if it
-  // always stays farther away than d + tolerance, nor, by an active set, if it starts beyond d and never
-  // loses three quarters of that excess (resting contact).
+  // d: model length, in [0, 2^1020], never reduced but by what the mesh says of a pair
+  // (CollisionRules::body_separations, rest_positions). A pair is reported if it ever comes as close as d
+  // (plus the thickness of its vertices, CollisionRules::thickness), measured in `norm`. It is never reported
+  // if it always stays farther away than d + tolerance, nor, by an active set, if it starts beyond d and
+  // never loses three quarters of that excess (resting contact).
   double min_separation = 0;
   Norm norm = Norm::euclidean;
 

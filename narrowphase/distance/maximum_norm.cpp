@@ -55,4 +55,22 @@ Vec best_direction_in_maximum_norm(const Differences<DoubleDouble>& d) {
   return best.direction();
 }
 
+// Any direction w bounds the distance from below by min_k w.c_k / |w|_1. The products err by less than 145
+// u^2 of the size with their corners (docs/theory.md, L43), for which 2^-97 is taken; the factors cover the
+// rounding of `hi`, of |w|_1 (two sums), of the difference and of the quotient.
+double distance_below_in_maximum_norm(PairKind kind, const double* const (&x)[4]) {
+  const PreciseMotion motion(kind, x, x);
+  if (motion.size == 0) return 0;
+  const Differences<DoubleDouble>& d = motion.start;
+  const Vec w = best_direction_in_maximum_norm(d);
+  const double size = sum_of_magnitudes(w);
+  if (!(size > 0)) return 0;
+  const Precise exact{{w[0], w[1], w[2]}};
+  DoubleDouble low = dot(exact, d.corner[0]);
+  for (int k = 1; k < d.corners(); ++k)
+    if (const DoubleDouble here = dot(exact, d.corner[k]); here < low) low = here;
+  const double lower = (low.hi * (1 - 0x1p-51) - 0x1p-97 * motion.size) / size * (1 - 0x1p-49);
+  return std::max(0.0, lower * motion.unit - 0x1p-1074);
+}
+
 }  // namespace onset

@@ -40,6 +40,8 @@ class Budget {
   // depend on the order of work.
   void look_at_checks();
 
+  // Ends the call, whose memory_limit does not hold what it needs.
+  void run_out_of_memory() { end(Outcome::out_of_memory); }
   // Ends the call, which answers with an exception of the caller's: other threads need not finish.
   void abandon() { interrupt(Outcome::cancelled); }
 

@@ -8,6 +8,7 @@
 #include "base/float_environment.hpp"
 #include "base/text_stream.hpp"
 #include "scene/motion/extents.hpp"
+#include "scene/pairs/separation.hpp"
 
 namespace onset {
 namespace {
@@ -57,8 +58,9 @@ void check(const Options& options) { in_float_environment(check_all, options); }
 void check_gap_share(double gap_share) { in_float_environment(check_share, gap_share); }
 
 double largest_separation(const MeshData& mesh, const Options& options) {
-  if (mesh.thickness.empty()) return options.min_separation;
-  return (options.min_separation + 2 * thickest(mesh)) * (1 + 0x1p-51);
+  const double of_bodies = largest_of_bodies(mesh, options);
+  if (mesh.thickness.empty()) return of_bodies;
+  return (of_bodies + 2 * thickest(mesh)) * (1 + 0x1p-51);
 }
 
 double absolute_tolerance(const Options& options, double extent) {

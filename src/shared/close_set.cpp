@@ -21,7 +21,12 @@ double norm_ratio(const Options& options) { return options.norm == Norm::maximum
 // Returns the Euclidean separation of a pair, rounded up; exact where there is nothing to add.
 double separation_of(const CloseInput& in, const Pair& pair) {
   const int* v = pair.vertices.data();
-  const int side = pair.kind != PairKind::edge_edge ? 1 : 2;
+  const int side = points_of_first_side(pair.kind);
+  if (has_pair_separations(in.mesh.data())) {
+    const double own =
+        separation_of_pair(in.mesh.data(), in.options, in.rest, pair.kind, {pair.a, pair.b}, v);
+    return norm_ratio(in.options) == 1 ? own : norm_ratio(in.options) * own * (1 + 0x1p-50);
+  }
   const double thickness = thickest(in.mesh.data(), v, v + side) + thickest(in.mesh.data(), v + side, v + 4);
   const double ratio = norm_ratio(in.options);
   if (ratio == 1 && thickness == 0) return in.options.min_separation;
@@ -42,7 +47,7 @@ void check_d_hat(double d_hat, bool zero_allowed) { in_float_environment(check_r
 
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding) {
   const double ratio = norm_ratio(options);  // the thickness is added where a pair is looked at
-  const double separation = ratio * options.min_separation + (ratio - 1) * 2 * thickest(mesh);
+  const double separation = ratio * largest_of_bodies(mesh, options) + (ratio - 1) * 2 * thickest(mesh);
   return (separation + d_hat + rounding) * (1 + 0x1p-48);
 }
 

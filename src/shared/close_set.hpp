@@ -3,6 +3,7 @@
 
 #include "onset/close_pairs.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/pairs/separation.hpp"
 #include "src/shared/visit_pairs.hpp"
 
 namespace onset {
@@ -11,7 +12,8 @@ namespace onset {
 void check_d_hat(double d_hat, bool zero_allowed);
 
 // Returns a length of the model, rounded up. A distance set of `d_hat` holds only pairs that come closer than
-// this plus their thickness in exact motion, where storing positions changes distances by at most `rounding`.
+// this plus their thickness, or less, in exact motion, where storing positions changes distances by at most
+// `rounding`.
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding);
 
 struct CloseInput {
@@ -22,6 +24,8 @@ struct CloseInput {
   // Pairs beyond d_hat by up to this are listed as well.
   double slack;
   const Options& options;
+  // What the shape at rest leaves of separations; null: all.
+  const RestLimits* rest = nullptr;
 };
 
 // Adds the pair where its exact distance may be below d_hat plus its separation.

@@ -113,6 +113,7 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
                       (collect != Collect::all || limited.most < std::numeric_limits<std::size_t>::max());
   // Rounding all vertices to floats in every call is worth it unless most of them are static.
   input.for_many = 2 * mesh.data().filter->static_ids.size() <= std::size_t(mesh.data().num_vertices);
+  input.rest = setup.rest.get();
   const PairPredicate contacts{&setup, is_candidate};
   if (collect == Collect::first) {
     input.stored = true;

@@ -12,6 +12,7 @@
 #include "scene/pair_source.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/pair_traversal.hpp"
+#include "src/shared/rest/rest_limits.hpp"
 #include "src/shared/visit_pairs.hpp"
 
 namespace onset {
@@ -80,7 +81,10 @@ StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList&
   const Accuracy accuracy = accuracy_of(data, motion, options);
   note(accuracy, r.stats);
   const double rounding = rounding_of_distances(motion);
-  const NarrowPhase narrow(stored_step_input(data, motion, accuracy, options, gap_share, rounding));
+  const std::shared_ptr<const RestLimits> rest = rest_limits(data, options, budget);
+  NarrowPhaseInput input = stored_step_input(data, motion, accuracy, options, gap_share, rounding);
+  input.rest = rest.get();
+  const NarrowPhase narrow(input);
   const TraversalResult traversal = traverse_pairs(pairs, narrow, Collect::first, 1, budget);
   copy_counts(traversal, r.stats);
   limit_step(mesh, traversal, budget, upper, 1, r);

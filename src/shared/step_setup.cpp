@@ -8,17 +8,19 @@
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion/extents.hpp"
 #include "scene/motion/storing.hpp"
+#include "scene/pairs/separation.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
+#include "src/shared/rest/rest_limits.hpp"
 
 namespace onset {
 
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test) {
-  const double half = 0.5 * options.min_separation * (1 + 0x1p-50);
+  const double separation = largest_of_bodies(mesh, options), half = 0.5 * separation * (1 + 0x1p-50);
   const bool has_static = mesh.filter->has_static();
   const double inflation =
-      has_static ? (half + margin) * (1 + 0x1p-50) : 0.5 * (options.min_separation + margin) * (1 + 0x1p-50);
+      has_static ? (half + margin) * (1 + 0x1p-50) : 0.5 * (separation + margin) * (1 + 0x1p-50);
   return {mesh, motion, inflation, t_max, test, options.instruction_set, half};
 }
 
@@ -74,7 +76,7 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
   // Boxes widened for a separation round, depending on where the scene lies. With this margin, boxes that
   // just miss belong to pairs farther apart than any that is reported with checks left, so that results do
   // not depend on that rounding (docs/theory.md, 13.5).
-  const bool widened = options.min_separation > 0 || !data.thickness.empty();
+  const bool widened = largest_of_bodies(data, options) > 0 || !data.thickness.empty();
   const double margin = test != BoxTest::swept && widened ? reach : 0;
   whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
   tree.emplace(*whole);
@@ -86,6 +88,7 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
   if (use == Use::close || d_hat > 0)
     tree->inflation =
         std::max(tree->inflation, share * euclidean_reach(data, options, std::max(d_hat, reach), rounding));
+  if (use != Use::candidates) rest = rest_limits(data, options, budget);
   if (budget.spent()) return;
   broad = take_broad_phase(options, *tree, budget);
   if (!broad) return;

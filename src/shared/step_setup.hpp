@@ -8,14 +8,14 @@
 #include "broadphase/broad_phase.hpp"
 #include "onset/mesh.hpp"
 #include "scene/motion/storing.hpp"
+#include "scene/pairs/rest_limits.hpp"
 #include "src/shared/budget.hpp"
 #include "src/shared/checked_options.hpp"
 
 namespace onset {
 
-// Returns the input for boxes that overlap wherever two primitives come within min_separation + margin +
-// thickness. The margin changes with the motion; static primitives leave it to the others, so that their
-// boxes can stay.
+// Returns the input for boxes that overlap wherever two primitives come within their separation + margin. The
+// margin changes with the motion; static primitives leave it to the others, so that their boxes can stay.
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test);
 
@@ -34,6 +34,8 @@ struct StepSetup {
   // which may since have shrunk to t_max.
   std::optional<BroadPhaseInput> whole, tree;
   Accuracy accuracy;
+  // What the shape at rest leaves of separations; null where it lowers none, or candidates alone are wanted.
+  std::shared_ptr<const RestLimits> rest;
   // rounding_of_distances(motion), where the use asks for it.
   double rounding = 0;
   // How far beyond its separation a pair with checks left can be reported, a length of the model.

@@ -11,8 +11,12 @@ namespace {
 
 class Near {
  public:
-  Near(const Mesh& mesh, const Motion& motion, const Options& options)
-      : mesh_(mesh), motion_(motion), options_(options), x_(4 * std::size_t(motion.num_vertices)) {
+  Near(const Mesh& mesh, const Motion& motion, const Options& options, const RestLimits* rest)
+      : mesh_(mesh),
+        motion_(motion),
+        options_(options),
+        rest_(rest),
+        x_(4 * std::size_t(motion.num_vertices)) {
     for (int v = 0; v < motion.num_vertices; ++v)
       for (int a = 0; a < 3; ++a) x_[std::size_t(4 * v + a)] = motion.t0(v)[a];
   }
@@ -21,7 +25,7 @@ class Near {
   // as much; but for what is welded.
   void add_near(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     std::vector<ClosePair> close;
-    const CloseInput input{mesh_, x_.data(), 0, 0, options_};
+    const CloseInput input{mesh_, x_.data(), 0, 0, options_, rest_};
     for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
     for (const ClosePair& p : close) {
       const double* x[4];
@@ -34,22 +38,23 @@ class Near {
  private:
   bool within(const ClosePair& p, const double* const (&x)[4]) const {
     if (options_.norm != Norm::maximum) return true;
-    const int *v = p.vertices.data(), side = p.kind != PairKind::edge_edge ? 1 : 2;
-    const double thickness = thickest(mesh_.data(), v, v + side) + thickest(mesh_.data(), v + side, v + 4);
-    return within_cube(p.kind, x, (options_.min_separation + thickness) * (1 + 0x1p-50));
+    const double separation =
+        separation_of_pair(mesh_.data(), options_, rest_, p.kind, {p.a, p.b}, p.vertices.data());
+    return within_cube(p.kind, x, separation * (1 + 0x1p-50));
   }
 
   const Mesh& mesh_;
   const Motion& motion_;
   const Options& options_;
+  const RestLimits* rest_;
   std::vector<double> x_;
 };
 
 }  // namespace
 
-Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most,
-                             Budget& budget) {
-  const Near near(mesh, rest.motion, options);
+Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options,
+                             const RestLimits* limits, std::size_t most, Budget& budget) {
+  const Near near(mesh, rest.motion, options, limits);
   return gather<NearPair>(
       *rest.broad, {kStepKinds.begin(), kStepKinds.end()}, most, budget,
       [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) {

@@ -3,6 +3,7 @@
 
 #include "onset/close_pairs.hpp"
 #include "onset/intersections.hpp"
+#include "scene/pairs/rest_limits.hpp"
 #include "src/shared/visit_pairs.hpp"
 #include "src/start/rest.hpp"
 
@@ -19,7 +20,7 @@ struct NearPair {
 };
 // Finds these among vertex-face and edge-edge pairs, ordered by (kind, a, b). `rest` must hold
 // Pairs::within_separation.
-Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options, std::size_t most,
-                             Budget& budget);
+Gathered<NearPair> find_near(const Mesh& mesh, const Rest& rest, const Options& options,
+                             const RestLimits* limits, std::size_t most, Budget& budget);
 
 }  // namespace onset

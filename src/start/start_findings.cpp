@@ -66,8 +66,9 @@ std::string of_close(const StartReport& report) {
   TextStream s;
   s << counted(report.within_separation.size(), "pair is", "pairs are") << " within the separation, first "
     << named(p) << ", " << p.distance << " apart where " << p.separation
-    << " is to be kept: move them apart, lower Options::min_separation or rules.thickness, or leave them "
-       "out: "
+    << " is to be kept: move them apart, lower Options::min_separation or rules.thickness, give "
+       "rules.rest_positions where "
+       "the mesh is finer than that, or leave them out: "
        "rules.excluded_pairs = {report.within_separation.begin(), report.within_separation.end()}";
   return s.str();
 }

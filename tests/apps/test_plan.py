@@ -26,7 +26,7 @@ class Plan(AppTest):
         self.assertEqual(plan["bodies"], 1)
         vf, ee = plan["plan"]["vf"], plan["plan"]["ee"]
         self.assertEqual((vf["needed"], vf["pairs"], vf["may_meet"]), (True, 24 * 36, 24 * 36 - 3 * 36))
-        self.assertEqual(vf["left_out"], {"masked": 0, "static": 0, "same_body": 0, "adjacent": 108, "excluded": 0})
+        self.assertEqual(vf["left_out"], {"masked": 0, "static": 0, "same_body": 0, "adjacent": 108, "excluded": 0, "within_rings": 0})
         self.assertEqual(ee["pairs"], 54 * 53 // 2)
         self.assertEqual(plan["plan"]["edges"], {"moving": 54, "static": 0, "dropped": 0})
         self.assertNotIn("at_rest", plan)
@@ -35,7 +35,7 @@ class Plan(AppTest):
         plan = self.json("plan", self.a, self.b, "--bodies", "components", "--static-body", 0, "--rigid-body", 1)
         self.assertEqual((plan["bodies"], plan["at_rest"]), (3, [0]))
         self.assertEqual(plan["plan"]["vf"]["left_out"],
-                         {"masked": 0, "static": 96, "same_body": 96, "adjacent": 36, "excluded": 0})
+                         {"masked": 0, "static": 96, "same_body": 96, "adjacent": 36, "excluded": 0, "within_rings": 0})
         self.assertEqual(plan["plan"]["faces"], {"moving": 24, "static": 12, "dropped": 0})
 
     def test_dropped_kinds(self):
@@ -59,6 +59,39 @@ class Plan(AppTest):
         self.assertEqual(told["stats"]["plan"]["vf"]["left_out"]["static"], 96)
         self.assertTrue(told["stats"]["made_fixed_boxes"])
         self.assertFalse(plain["stats"]["made_fixed_boxes"])
+
+    def test_rings(self):
+        left_out = self.json("plan", self.a, "--rings", 1)["plan"]["vf"]["left_out"]
+        # Of a cube's vertices and faces, two edges lead farthest: only opposite corners can be that far.
+        self.assertGreater(left_out["within_rings"], 0)
+        self.assertEqual(self.json("plan", self.a, "--rings", 3)["plan"]["vf"]["left_out"]["within_rings"],
+                         3 * 8 * 12 - left_out["adjacent"])
+        self.must_fail(2, ["--rings"], "plan", self.a, "--rings", "-1")
+
+    def test_separations_of_bodies(self):
+        """The second cube falls by 0.75, with the third above it: it keeps 0.25 of the lowest one."""
+        bodies = ["--bodies", "components", "--rigid"]
+        step = lambda *more: self.json("step", self.a, self.b, *bodies, *more)["step"]
+        self.assertAlmostEqual(step(), 2 / 3, 5)
+        self.assertAlmostEqual(step("--body-separation", "1,0,0.25"), 1 / 3, 5)
+        self.assertAlmostEqual(step("--body-separation", "1,0,0", "--min-separation", "0.25"), 2 / 3, 5)
+        self.assertAlmostEqual(step("--body-separation", "0,2,0.25", "--body-separation", "0,1,0.125"), 1 / 2, 5)
+        self.must_fail(2, ["--body-separation 0,3,1", "3 bodies"], "step", self.a, self.b, *bodies,
+                       "--body-separation", "0,3,1")
+        for wrong in ("0,1", "0", "0,1,-1", "0,x,1", "a,1,1", "0,1,nan"):
+            self.must_fail(2, ["--body-separation"], "step", self.a, self.b, *bodies, "--body-separation", wrong)
+        self.must_fail(2, ["--dump"], "step", self.a, self.b, *bodies, "--body-separation", "0,1,0.1", "--dump", "x")
+
+    def test_shape_at_rest(self):
+        """With a separation beyond the gaps of 0.5, each pair keeps a share of its gap."""
+        separation = ["--rigid", "--bodies", "components", "--min-separation", 1]
+        self.assertEqual(self.json("step", self.a, self.b, *separation)["step"], 0)
+        step = lambda *more: self.json("step", self.a, self.b, *separation, "--rest", self.a, *more)["step"]
+        self.assertAlmostEqual(step(), 1 / 3, 5)
+        self.assertAlmostEqual(step("--rest-share", "0.25"), 1 / 2, 5)
+        self.must_fail(1, ["24 vertices"], "step", self.a, self.b, "--rest", self.write("two.obj", obj(*cubes(2))))
+        for wrong in ("0", "1", "2", "nan"):
+            self.must_fail(2, ["--rest-share"], "step", self.a, self.b, "--rest", self.a, "--rest-share", wrong)
 
     def test_what_is_rigid_does_not_meet_itself(self):
         a, b = self.write("c.obj", obj(START, FACES)), self.write("d.obj", obj(END, FACES))

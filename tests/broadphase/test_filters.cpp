@@ -29,12 +29,16 @@ std::vector<int> vertices_of(const MeshData& mesh, Primitive kind, int id) {
   return {f[0], f[1], f[2]};
 }
 
-LeftOut left_out(const Rules& r, const MeshData& mesh, PairKind kind, int a, int b) {
-  const LeftOut reason = scenes::left_out(r, vertices_of(mesh, first_primitive(kind), a),
-                                          vertices_of(mesh, second_primitive(kind), b));
+LeftOut left_out(const Rules& r, const MeshData& mesh, const scenes::EdgeDistances& distances, PairKind kind,
+                 int a, int b) {
+  const std::vector<int> A = vertices_of(mesh, first_primitive(kind), a),
+                         B = vertices_of(mesh, second_primitive(kind), b);
+  const LeftOut reason = scenes::left_out(r, A, B);
   const bool by_name =
       kind == kEdgeFace ? scenes::excludes_intersection(r, a, b) : scenes::excludes_pair(r, kind, a, b);
-  return reason == LeftOut::no && by_name ? LeftOut::by_name : reason;
+  if (reason != LeftOut::no) return reason;
+  if (by_name) return LeftOut::by_name;
+  return distances.within(r.excluded_rings, A, B) ? LeftOut::within_rings : LeftOut::no;
 }
 
 template <class T>
@@ -124,6 +128,7 @@ Mesh random_rules(Soup& soup, Random& random) {
   if (some(0.5)) rules.excluded_bodies = pairs(4, int(bodies));
   if (some(0.5)) rules.excluded_vertices = pairs(30, int(V));
   name_pairs(mesh, rules, random);
+  if (some(0.4)) rules.excluded_rings = scenes::integer(random, 1, 4);
   mesh.set_rules(rules);
   return mesh;
 }
@@ -142,6 +147,7 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
                                       {soup.x_t1.data(), soup.mesh.num_vertices});
     REQUIRE(motion.status == Outcome::free);
     const Motion plain = soup.motion();
+    const scenes::EdgeDistances distances(soup.mesh.num_vertices, soup.mesh.edges);
     for (const BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving}) {
       BroadPhaseInput unfiltered{soup.mesh, plain}, input{mesh.data(), motion};
       unfiltered.test = input.test = test;
@@ -153,7 +159,7 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
         const auto all = make_broad_phase(BroadPhaseMethod::brute, unfiltered);
         IdPairs expected;
         for (const auto& [a, b] : candidates(*all, kind)) {
-          const LeftOut reason = left_out(rules, soup.mesh, kind, a, b);
+          const LeftOut reason = left_out(rules, soup.mesh, distances, kind, a, b);
           ++reasons[reason];
           if (reason == LeftOut::no) expected.emplace_back(a, b);
         }
@@ -172,7 +178,8 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
     }
   }
   CHECK(found > 10000);
-  for (const LeftOut reason : {LeftOut::masked, LeftOut::both_static, LeftOut::same_body, LeftOut::by_name})
+  for (const LeftOut reason :
+       {LeftOut::masked, LeftOut::both_static, LeftOut::same_body, LeftOut::by_name, LeftOut::within_rings})
     CHECK(reasons[reason] > 1000);
 }
 
@@ -182,6 +189,7 @@ TEST_CASE("filter counts hold every pair under the first reason that leaves it o
     Soup soup = clusters(scenes::integer(random, 1, 25), random);
     const Mesh mesh = random_rules(soup, random);
     const Rules& rules = mesh.rules();
+    const scenes::EdgeDistances distances(soup.mesh.num_vertices, soup.mesh.edges);
     std::array<std::vector<bool>, 3> busy;
     for (const Primitive p : kPrimitives) busy[std::size_t(p)].resize(primitive_count(soup.mesh, p));
     for (const PairKind kind : kKinds) {
@@ -190,7 +198,7 @@ TEST_CASE("filter counts hold every pair under the first reason that leaves it o
       const Primitive first = first_primitive(kind), second = second_primitive(kind);
       for (int a = 0; a < int(primitive_count(soup.mesh, first)); ++a)
         for (int b = first == second ? a + 1 : 0; b < int(primitive_count(soup.mesh, second)); ++b) {
-          const LeftOut reason = left_out(rules, soup.mesh, kind, a, b);
+          const LeftOut reason = left_out(rules, soup.mesh, distances, kind, a, b);
           ++counts[reason], ++pairs;
           if (reason == LeftOut::no)
             busy[std::size_t(first)][std::size_t(a)] = busy[std::size_t(second)][std::size_t(b)] = true;
@@ -205,6 +213,7 @@ TEST_CASE("filter counts hold every pair under the first reason that leaves it o
       CHECK(plan.same_body == counts[LeftOut::same_body]);
       CHECK(plan.adjacent == counts[LeftOut::adjacent]);
       CHECK(plan.excluded == counts[LeftOut::by_name]);
+      CHECK(plan.within_rings == counts[LeftOut::within_rings]);
       CHECK(plan.may_meet() == counts[LeftOut::no]);
     }
     // What may meet something is never dropped; adjacency and exclusions are not looked at for that.

@@ -1,5 +1,6 @@
 #include "tests/fuzz/mesh_input.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -109,6 +110,38 @@ void describe_coordinate(Bytes& bytes, double& x, const std::vector<double>& kno
       bytes.whole(which, -128, 127);
       x = which / 8.0;
   }
+}
+
+// Each pair of bodies at most once.
+void read_body_separations(Bytes& bytes, MeshInput& input, int bodies) {
+  auto& list = input.rules.body_separations;
+  int rows = 0;
+  bytes.whole(rows, 0, 4);
+  for (int i = 0; i < rows; ++i) {
+    int a = 0, b = 0, steps = 0;
+    bytes.whole(a, 0, bodies - 1), bytes.whole(b, 0, bodies - 1), bytes.whole(steps, 0, 31);
+    const bool known = std::any_of(list.begin(), list.end(), [&](const BodySeparation& s) {
+      return std::minmax(s.body_a, s.body_b) == std::minmax(a, b);
+    });
+    if (!known) list.push_back({a, b, steps < 4 ? 0 : part_of_size(input, steps - 3)});
+  }
+}
+
+// The start, the end, either of another size, or other places; what is not in range is 0.
+void read_rest(Bytes& bytes, MeshInput& input) {
+  const double shares[] = {0.5, 0.25, 0.9, 0x1p-20, 1 - 0x1p-53, 0.1, 1 / 3.0};
+  bytes.one_of(input.rules.rest_share, shares);
+  int how = 0;
+  bytes.whole(how, 0, 7);
+  Eigen::MatrixXd x = how % 2 == 0 ? input.x_t0 : input.x_t1;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    double& c = x.data()[i];
+    int steps = 0;
+    if (how >= 6) bytes.whole(steps, -6, 6), c = steps;
+    if (how == 4 || how == 5) c /= 8;
+    if (!(std::fabs(c) <= 0x1p1020)) c = 0;
+  }
+  input.rules.rest_positions = x;
 }
 
 void set_exponent(double& length, int exponent) { length = std::ldexp(1.0, exponent); }
@@ -258,6 +291,9 @@ void read_rules(Bytes& bytes, MeshInput& input) {
     bytes.whole(p.face, 0, std::max(F - 1, 0));
     if (E > 0 && F > 0) r.excluded_intersections.push_back(p);
   }
+  if (has(12)) bytes.whole(r.excluded_rings, 0, 3);
+  if (has(13)) read_body_separations(bytes, input, bodies);
+  if (has(14)) read_rest(bytes, input);
   hold_statics(input);
 }
 
@@ -332,6 +368,13 @@ std::string to_text(const MeshInput& input) {
   list("groups", r.groups, number), list("masks", r.masks, number);
   if (r.weld) text += "  weld\n";
   list("excluded_vertices", r.excluded_vertices, two);
+  if (r.excluded_rings > 0) add("  excluded_rings %d\n", r.excluded_rings);
+  list("body_separations", r.body_separations,
+       [&](const BodySeparation& s) { add(" {%d, %d, %a}", s.body_a, s.body_b, s.separation); });
+  if (r.rest_positions.rows() > 0) add("  rest_share %a\n", r.rest_share);
+  for (Eigen::Index v = 0; v < r.rest_positions.rows(); ++v)
+    add("  rest %d: {%a, %a, %a}\n", int(v), r.rest_positions(v, 0), r.rest_positions(v, 1),
+        r.rest_positions(v, 2));
   list("excluded_pairs", r.excluded_pairs,
        [&](const Pair& p) { add(" {%d, %d, %d}", int(p.kind), p.a, p.b); });
   list("excluded_intersections", r.excluded_intersections,

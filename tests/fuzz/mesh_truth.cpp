@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/pairs/separation.hpp"
 #include "tests/fuzz/digest.hpp"
 #include "tests/narrowphase/exact/exact_query.hpp"
 #include "tests/oracle/quick.hpp"
@@ -10,6 +11,7 @@
 #include "tests/scenes/families.hpp"
 #include "tests/scenes/rule_filter.hpp"
 #include "tests/src/start/brute_intersections.hpp"
+#include "tests/steps/support/pair_separations.hpp"
 #include "tests/steps/support/promises.hpp"
 
 namespace onset::fuzz {
@@ -18,17 +20,25 @@ namespace {
 using scenes::Query;
 using tests::Key;
 
-bool lets_meet(const CollisionRules& rules, PairKind kind, int a, int b, const std::array<int, 4>& v) {
-  const int first = scenes::first_body(kind);
-  const std::vector<int> A(v.begin(), v.begin() + first), B(v.begin() + first, v.end());
-  return scenes::left_out(rules, A, B) == scenes::LeftOut::no && !scenes::excludes_pair(rules, kind, a, b);
+bool within_rings(const MeshInput& input, const std::vector<int>& A, const std::vector<int>& B) {
+  const int rings = input.rules.excluded_rings;
+  return rings > 0 && scenes::EdgeDistances(input.vertices, input.edges).within(rings, A, B);
 }
 
-tests::Asked asked_of(const MeshInput& input, const Mesh& mesh) {
+bool lets_meet(const MeshInput& input, PairKind kind, int a, int b, const std::array<int, 4>& v) {
+  const int first = scenes::first_body(kind);
+  const std::vector<int> A(v.begin(), v.begin() + first), B(v.begin() + first, v.end());
+  return scenes::left_out(input.rules, A, B) == scenes::LeftOut::no &&
+         !scenes::excludes_pair(input.rules, kind, a, b) && !within_rings(input, A, B);
+}
+
+// `wrong`: empty, or a pair that keeps another distance than the rules say.
+tests::Asked asked_of(const MeshInput& input, const Mesh& mesh, std::string& wrong) {
   tests::Asked asked{mesh, input.x_t0, input.x_t1, input.options, input.rules.thickness, input.rules.weld};
-  asked.lets = [rules = input.rules](PairKind kind, int a, int b, const std::array<int, 4>& v) {
-    return lets_meet(rules, kind, a, b, v);
+  asked.lets = [input](PairKind kind, int a, int b, const std::array<int, 4>& v) {
+    return lets_meet(input, kind, a, b, v);
   };
+  if (has_pair_separations(mesh.data())) asked.keeps = tests::separations_of(mesh, input.options, wrong);
   return asked;
 }
 
@@ -105,6 +115,7 @@ std::string broken_by_methods(const MeshInput& input) {
                       {"tree, AVX2, two threads", BroadPhaseMethod::automatic, InstructionSet::automatic, 2},
                       {"hash, AVX2", BroadPhaseMethod::hash, InstructionSet::automatic, 1}};
   for (const Way& way : ways) {
+    mesh.release_memory();  // what an earlier way found at rest is found anew
     o.broad_phase = way.method, o.instruction_set = way.instruction_set, o.threads = way.threads;
     const auto found = all_answers(input, mesh, o);
     for (std::size_t i = 0; i < std::max(expected.size(), found.size()); ++i)
@@ -117,7 +128,8 @@ std::string broken_by_methods(const MeshInput& input) {
 
 std::string broken_by_integers(const MeshInput& input) {
   const Mesh mesh = input.mesh();
-  const tests::Asked asked = asked_of(input, mesh);
+  std::string wrong;
+  const tests::Asked asked = asked_of(input, mesh, wrong);
   const Eigen::MatrixXd &x0 = input.x_t0, &x1 = input.x_t1;
   Options o = input.options;
   o.threads = 1;
@@ -152,8 +164,8 @@ std::string broken_by_integers(const MeshInput& input) {
   });
   for (const Pair& p : start.touching) {
     const Query rest = tests::query_of(p.kind, p.vertices, x0, x0);
-    const bool meets = lets_meet(input.rules, p.kind, p.a, p.b, p.vertices) &&
-                       !is_welded_at_start(input, p.kind, p.vertices);
+    const bool meets =
+        lets_meet(input, p.kind, p.a, p.b, p.vertices) && !is_welded_at_start(input, p.kind, p.vertices);
     if (broken.empty() && (!meets || !exact_first_contact(scenes::exact_pair(rest))))
       broken = about("check() lists a pair that does not touch", {p.kind, p.a, p.b}, rest);
   }
@@ -162,8 +174,7 @@ std::string broken_by_integers(const MeshInput& input) {
   for (const Contact& row : set) limit = std::min(limit, row.step_limit);
   if (step.step > limit) return "the step is beyond a row's step_limit";
   for (const Contact& row : set)
-    if (!lets_meet(input.rules, row.kind, row.a, row.b, row.vertices))
-      return "a row that the rules leave out";
+    if (!lets_meet(input, row.kind, row.a, row.b, row.vertices)) return "a row that the rules leave out";
   return {};
 }
 
@@ -195,7 +206,7 @@ std::string wrong_intersections(const MeshInput& input, const Mesh& mesh) {
     const auto face = mesh.face(f);
     const std::vector<int> A(edge.begin(), edge.end()), B(face.begin(), face.end());
     if (scenes::left_out(input.rules, A, B) != scenes::LeftOut::no) return false;
-    if (scenes::excludes_intersection(input.rules, e, f)) return false;
+    if (scenes::excludes_intersection(input.rules, e, f) || within_rings(input, A, B)) return false;
     for (int v : A)
       for (int w : B)
         if (input.rules.weld && input.x_t0.row(v) == input.x_t0.row(w)) return false;
@@ -214,7 +225,9 @@ std::string broken_by_rationals(const MeshInput& input) {
   MeshInput whole = input;
   whole.options.window = INFINITY, whole.options.threads = 1;
   const Mesh mesh = whole.mesh();
-  const tests::Asked asked = asked_of(whole, mesh);
+  std::string wrong;
+  const tests::Asked asked = asked_of(whole, mesh, wrong);
+  if (!wrong.empty()) return wrong;
   tests::StepScene scene;
   scene.x_t0 = whole.x_t0, scene.x_t1 = whole.x_t1;
   const Mesh plain = whole.mesh_without_rules();

@@ -19,6 +19,7 @@ struct Context {
   std::vector<std::uint32_t> groups = std::vector<std::uint32_t>(13, 1),
                              masks = std::vector<std::uint32_t>(13, 1);
   std::vector<int> loose{12}, full_ids;
+  Eigen::MatrixXd x_rest;
   int full_vertices = 20;
 
   Context() {
@@ -28,7 +29,7 @@ struct Context {
     }
     x.row(3) << 0.25, 0.25, 2;
     x.row(12) << 9, 9, 9;
-    x_t0 = x_t1 = x;
+    x_t0 = x_t1 = x_rest = x;
     mesh = onset::Mesh(x, F);
     report = onset::check(mesh, x);
     is_obstacle[0] = is_obstacle[1] = is_obstacle[2] = true;

@@ -35,6 +35,9 @@ bool same_intersections(const std::vector<Intersection>& a, const std::vector<In
     return p.edge == q.edge && p.face == q.face && p.kind == q.kind && p.vertices == q.vertices;
   });
 }
+bool same_positions(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
+}
 bool same_rules(const CollisionRules& a, const CollisionRules& b) {
   return a.points == b.points && a.thickness == b.thickness && a.bodies == b.bodies &&
          a.rigid_bodies == b.rigid_bodies &&
@@ -42,7 +45,13 @@ bool same_rules(const CollisionRules& a, const CollisionRules& b) {
          a.excluded_bodies == b.excluded_bodies && a.static_vertices == b.static_vertices &&
          a.groups == b.groups && a.masks == b.masks && a.weld == b.weld &&
          a.excluded_vertices == b.excluded_vertices && same_pairs(a.excluded_pairs, b.excluded_pairs) &&
-         same_intersections(a.excluded_intersections, b.excluded_intersections);
+         same_intersections(a.excluded_intersections, b.excluded_intersections) &&
+         a.excluded_rings == b.excluded_rings && a.rest_share == b.rest_share &&
+         same_positions(a.rest_positions, b.rest_positions) &&
+         std::equal(a.body_separations.begin(), a.body_separations.end(), b.body_separations.begin(),
+                    b.body_separations.end(), [](const BodySeparation& s, const BodySeparation& t) {
+                      return s.body_a == t.body_a && s.body_b == t.body_b && s.separation == t.separation;
+                    });
 }
 
 // Two falling cubes, three points beside them, and something in every rule.
@@ -69,6 +78,9 @@ struct Everything {
     rules.weld = true;
     rules.excluded_vertices = {{16, 3}};
     rules.excluded_pairs = {{PairKind::vertex_face, 8, 0, {}}, {PairKind::edge_edge, 37, 36, {}}};
+    rules.body_separations = {{1, 0, 0.02}, {2, 2, 0.5}};
+    rules.rest_positions = scene.x_t0, rules.rest_share = 0.25;
+    rules.excluded_rings = 1;
     rules.excluded_intersections = {{36, 1, IntersectionKind::touching, {}}};
   }
   Mesh mesh(const CollisionRules& r = {}) const { return Mesh(scene.x_t0, scene.faces, r); }
@@ -113,6 +125,10 @@ TEST_CASE("rules may be filled in any order, at once or one by one", "[unit]") {
   set_rule(mesh, &CollisionRules::bodies_without_self_collision, r.bodies_without_self_collision);
   set_rule(mesh, &CollisionRules::rigid_bodies, r.rigid_bodies);
   set_rule(mesh, &CollisionRules::thickness, r.thickness);
+  set_rule(mesh, &CollisionRules::excluded_rings, r.excluded_rings);
+  set_rule(mesh, &CollisionRules::rest_share, r.rest_share);
+  set_rule(mesh, &CollisionRules::rest_positions, r.rest_positions);
+  set_rule(mesh, &CollisionRules::body_separations, r.body_separations);
   set_rule(mesh, &CollisionRules::points, r.points);
   set_rule(mesh, &CollisionRules::excluded_intersections, r.excluded_intersections);
   set_rule(mesh, &CollisionRules::excluded_pairs, r.excluded_pairs);
@@ -198,7 +214,7 @@ TEST_CASE("wrong rules name what is wrong and leave the mesh as it was", "[unit]
 
 TEST_CASE("one wrong rule among many changes nothing of a mesh that has others", "[unit]") {
   const Everything all;
-  for (int wrong = 0; wrong < 8; ++wrong) {
+  for (int wrong = 0; wrong < 12; ++wrong) {
     Mesh mesh = all.mesh(all.rules);
     mesh.set_full_vertices({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 20}, 30);
     const ActiveSet before = all.ask(mesh);
@@ -211,6 +227,10 @@ TEST_CASE("one wrong rule among many changes nothing of a mesh that has others",
     if (wrong == 5) rules.masks = {1};
     if (wrong == 6) rules.excluded_pairs = {{PairKind::edge_edge, 36, 37, {}}};  // no points any more
     if (wrong == 7) rules.excluded_intersections = {{0, 24, IntersectionKind::crossing, {}}};
+    if (wrong == 8) rules.excluded_rings = -1;
+    if (wrong == 9) rules.body_separations = {{0, 0, -1}};
+    if (wrong == 10) rules.rest_positions = Eigen::MatrixXd::Zero(3, 3);
+    if (wrong == 11) rules.rest_share = 1;
     CAPTURE(wrong);
     CHECK_THROWS_AS(mesh.set_rules(rules), std::invalid_argument);
     CHECK(same_rules(mesh.rules(), all.rules));
@@ -291,6 +311,34 @@ TEST_CASE("pairs of points that there are not any more are an error that names t
   change_rules(mesh, [](CollisionRules& r) { r.excluded_pairs.clear(), r.excluded_intersections.clear(); });
   CHECK((mesh.filter_counts().edge_edge.excluded == 0 && mesh.filter_counts().vertex_face.excluded == 0));
   CHECK(intersections(mesh, x).size() == 3);
+}
+
+TEST_CASE("wrong separations of bodies, shapes at rest and rings are errors that name the row", "[unit]") {
+  Mesh mesh = two_cubes();
+  set_rule(mesh, &CollisionRules::bodies, mesh.components());
+  const auto bodies = [&](const BodySeparation& s) {
+    set_rule(mesh, &CollisionRules::body_separations, {{0, 0, 1}, s});
+  };
+  CHECK_THROWS_WITH(bodies({0, 2, 1}), Contains("body_separations row 1: id 2 is out of range, there are 2"));
+  CHECK_THROWS_WITH(bodies({-1, 0, 1}), Contains("row 1: id -1"));
+  CHECK_THROWS_WITH(bodies({0, 0, 2}), Contains("row 1: bodies 0 and 0 are repeated"));
+  CHECK_THROWS_WITH(bodies({1, 0, -1}), Contains("row 1: -1.0") && Contains("at most 2^1020"));
+  CHECK_THROWS_WITH(bodies({1, 0, NAN}), Contains("row 1: nan"));
+  CHECK_THROWS_WITH(bodies({1, 0, 0x1p1021}), Contains("row 1"));
+  CHECK_NOTHROW(bodies({1, 0, 0x1p1020}));
+  CHECK_THROWS_WITH(set_rule(mesh, &CollisionRules::bodies, {}), Contains("body_separations row 1: id 1"));
+  Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(16, 3);
+  const auto shape = [&](const Eigen::MatrixXd& x) { set_rule(mesh, &CollisionRules::rest_positions, x); };
+  CHECK_THROWS_WITH(shape(rest.topRows(15)),
+                    Contains("rest_positions has 15 rows of 3 coordinates for 16 vertices"));
+  CHECK_THROWS_WITH(shape(rest.leftCols(2)), Contains("16 rows of 2"));
+  for (const double bad : {double(NAN), double(INFINITY), -0x1p1021}) {
+    rest(7, 1) = bad;
+    CHECK_THROWS_WITH(shape(rest), Contains("rest_positions row 7"));
+  }
+  for (const double bad : {0.0, 1.0, -0.5, double(NAN)})
+    CHECK_THROWS_WITH(set_rule(mesh, &CollisionRules::rest_share, bad), Contains("rest_share is"));
+  CHECK_THROWS_WITH(set_rule(mesh, &CollisionRules::excluded_rings, -2), Contains("excluded_rings is -2"));
 }
 
 TEST_CASE("points are vertices of no edge or face, each once, after the edges", "[unit]") {

@@ -2,6 +2,7 @@
 // whoever knows the positions.)
 #pragma once
 
+#include <algorithm>
 #include <onset/collision_rules.hpp>
 #include <vector>
 
@@ -13,9 +14,38 @@ inline bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
   return false;
 }
 
-enum class LeftOut { no, masked, both_static, same_body, adjacent, by_name };
+enum class LeftOut { no, masked, both_static, same_body, adjacent, by_name, within_rings };
 
-// By the vertices of both primitives.
+// How many edges lead from each vertex to each other one; points are no edges.
+class EdgeDistances {
+ public:
+  EdgeDistances(int vertices, const std::vector<std::array<int, 2>>& edges)
+      : count_(std::size_t(vertices)), all_(count_ * count_, kNever) {
+    for (std::size_t v = 0; v < count_; ++v) at(v, v) = 0;
+    for (const auto& e : edges)
+      if (e[0] != e[1])
+        at(std::size_t(e[0]), std::size_t(e[1])) = at(std::size_t(e[1]), std::size_t(e[0])) = 1;
+    for (std::size_t k = 0; k < count_; ++k)
+      for (std::size_t v = 0; v < count_; ++v)
+        for (std::size_t w = 0; at(v, k) < kNever && w < count_; ++w)
+          at(v, w) = std::min(at(v, w), at(v, k) + at(k, w));
+  }
+  // Whether vertices of the two primitives are at most so many edges apart.
+  bool within(int rings, const std::vector<int>& A, const std::vector<int>& B) const {
+    for (int v : A)
+      for (int w : B)
+        if (all_[std::size_t(v) * count_ + std::size_t(w)] <= rings) return true;
+    return false;
+  }
+
+ private:
+  static constexpr int kNever = 1 << 28;
+  int& at(std::size_t v, std::size_t w) { return all_[v * count_ + w]; }
+  std::size_t count_;
+  std::vector<int> all_;
+};
+
+// By the vertices of both primitives; not by excluded_rings, which EdgeDistances is for.
 inline LeftOut left_out(const CollisionRules& r, const std::vector<int>& A, const std::vector<int>& B) {
   std::uint32_t groups[2] = {0, 0}, masks[2] = {0, 0};
   bool all_static = true, shared = false, apart = false;

@@ -20,6 +20,28 @@ std::vector<bool> flags(const char* option, const std::vector<int>& bodies, int 
   return marks;
 }
 
+onset::BodySeparation separation_of(const std::string& text, int count) {
+  const std::size_t first = text.find(','), second = text.find(',', first + 1);
+  if (first == std::string::npos || second == std::string::npos)
+    throw UsageError("--body-separation " + text + ": two bodies and a length expected, such as 0,1,0.01");
+  const auto body = [&](const std::string& id) {
+    return int(parse_whole("--body-separation", id, 0, INT32_MAX));
+  };
+  onset::BodySeparation s{body(text.substr(0, first)), body(text.substr(first + 1, second - first - 1)), 0};
+  flags("--body-separation", {s.body_a, s.body_b}, count);
+  s.separation = parse_real("--body-separation", text.substr(second + 1), Zero::allowed);
+  return s;
+}
+
+void set_rest(const BodyArguments& a, const Scene& scene, onset::CollisionRules& rules) {
+  if (a.rest.empty()) return;
+  const Scene rest = read_scene(a.rest, a.rest);
+  if (rest.x_t0.rows() != scene.x_t0.rows())
+    throw InputError(a.rest + " has " + std::to_string(rest.x_t0.rows()) + " vertices, " + scene.path + " " +
+                     std::to_string(scene.x_t0.rows()));
+  rules.rest_positions = rest.x_t0, rules.rest_share = a.rest_share;
+}
+
 }  // namespace
 
 void add_weld(CLI::App& command, bool& weld) {
@@ -46,6 +68,27 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
       ->take_all();
   command.add_flag("--rigid", a.all_rigid, "No body meets itself");
   add_weld(command, a.weld);
+  add_whole(command, "--rings", a.rings, "N",
+            "Pairs joined by at most N edges of the mesh never meet, as those that share a vertex", 0,
+            INT32_MAX);
+  command
+      .add_option("--body-separation", a.separations,
+                  "Bodies I and J (or I and itself) keep LENGTH in place of --min-separation (repeat)")
+      ->type_name("I,J,LENGTH")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option(
+          "--rest", a.rest,
+          "The same mesh at rest: no pair keeps more than a share of its distance there, so that a mesh "
+          "may be finer than its separation")
+      ->check(path_fault)
+      ->type_name("FILE");
+  const auto take = [&a](const std::string& text) {
+    a.rest_share = parse_real("--rest-share", text, Zero::refused);
+    if (a.rest_share >= 1) throw CLI::ValidationError("--rest-share", text + " is not below 1");
+  };
+  command.add_option_function<std::string>("--rest-share", take, "That share (default 0.5)")->type_name("S");
 }
 
 void set_bodies(const BodyArguments& a, Scene& scene) {
@@ -60,6 +103,9 @@ void set_bodies(const BodyArguments& a, Scene& scene) {
   if (!a.fixed.empty()) rules.static_vertices = mesh.of_bodies(fixed);
   if (a.all_rigid || !a.rigid.empty()) rules.rigid_bodies = rigid;
   if (a.weld) rules.weld = scene.welded = true;
+  rules.excluded_rings = a.rings;
+  for (const std::string& text : a.separations) rules.body_separations.push_back(separation_of(text, count));
+  set_rest(a, scene, rules);
   mesh.set_rules(rules);
 }
 

@@ -13,6 +13,10 @@ struct BodyArguments {
   std::string bodies = "one";
   std::vector<int> fixed, rigid;
   bool all_rigid = false, weld = false;
+  int rings = 0;
+  std::vector<std::string> separations;  // I,J,LENGTH each
+  std::string rest;                      // a path; empty for none
+  double rest_share = 0.5;
 };
 
 // --weld, alone; one of the body options.
@@ -20,7 +24,7 @@ void add_weld(CLI::App& command, bool& weld);
 
 void add_body_options(CLI::App& command, BodyArguments& arguments);
 
-// Throws UsageError for a body that the mesh has not.
+// Throws UsageError for a body that the mesh has not, InputError for a shape at rest of another mesh.
 void set_bodies(const BodyArguments& arguments, Scene& scene);
 
 }  // namespace app

@@ -41,7 +41,7 @@ void add_active_set(CLI::App& app, Run& run) {
       "edges in the order of igl::edges; w: weights of the vertices at the contact point; n: unit normal; "
       "speed < 0 closes)",
       [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
-        announce(*files, outputs);
+        announce(*files, scene, outputs);
         const onset::ActiveSet set = compute(scene, options);
         if (set.vertex < 0) note_start(scene, options, starts_in_contact(set), outputs);
         if (outputs.csv()) write_active_set_csv(*outputs.csv(), set);

@@ -37,7 +37,7 @@ void run_check(const Inputs& inputs) {
   Scene scene = read_scene(inputs.a, inputs.b.empty() ? inputs.a : inputs.b);
   set_bodies(inputs, scene);
   join_copies(inputs, scene);
-  Outputs outputs(inputs, {inputs.a, inputs.b});
+  Outputs outputs(inputs, {inputs.a, inputs.b, inputs.rest});
   if (!inputs.geometry.empty()) outputs.announce("--export", inputs.geometry);
   for (const std::string& note : scene.notes) outputs.note(note);
   const onset::StartReport report = look(scene, options);

@@ -35,11 +35,9 @@ std::string words(const char* name, const onset::PairFilterCounts& plan, const c
   text += plan.may_meet() > 0 ? format("%lld pairs may meet", number(plan.may_meet()))
                               : std::string("dropped: no pair may meet");
   text += format(" of %lld; left out:", number(plan.pairs));
-  const std::pair<const char*, std::int64_t> reasons[] = {{"masked", plan.masked},
-                                                          {"static", plan.both_static},
-                                                          {"same body", plan.same_body},
-                                                          {"adjacent", plan.adjacent},
-                                                          {"excluded", plan.excluded}};
+  const std::pair<const char*, std::int64_t> reasons[] = {
+      {"masked", plan.masked},     {"static", plan.both_static}, {"same body", plan.same_body},
+      {"adjacent", plan.adjacent}, {"excluded", plan.excluded},  {"within rings", plan.within_rings}};
   const char* separator = " ";
   for (const auto& [reason, count] : reasons)
     if (count > 0) text += format("%s%lld %s", separator, number(count), reason), separator = ", ";
@@ -66,7 +64,7 @@ void report(const Scene& scene, const Inputs& inputs) {
       text += format("%s%d", i == 0 ? ": " : " ", rest[i]);
     text += rest.size() > 10 ? " ...\n" : "\n";
   }
-  Outputs outputs(inputs, {inputs.a, inputs.b});
+  Outputs outputs(inputs, {inputs.a, inputs.b, inputs.rest});
   for (const std::string& note : scene.notes) outputs.note(note);
   outputs.finish(json, text);
 }

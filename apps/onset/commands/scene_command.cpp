@@ -29,7 +29,7 @@ CLI::App* add_scene_command(CLI::App& app, Run& run, const std::string& name, co
       const onset::Options options = to_options(*inputs);
       Scene scene = read_scene(inputs->a, inputs->b);
       set_bodies(*inputs, scene);
-      Outputs outputs(*inputs, {inputs->a, inputs->b});
+      Outputs outputs(*inputs, {inputs->a, inputs->b, inputs->rest});
       for (const std::string& note : scene.notes) outputs.note(note);
       work(scene, options, outputs);
     };

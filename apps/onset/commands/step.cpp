@@ -33,7 +33,7 @@ void add_step(CLI::App& app, Run& run) {
   CLI::App* command = add_scene_command(
       app, run, "step", "The largest step from A towards B that is certainly free of contact", kColumns,
       [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
-        announce(*files, outputs);
+        announce(*files, scene, outputs);
         const onset::StepResult result = compute(scene, options);
         const bool in_contact = result.outcome == onset::Outcome::initial_contact;
         if (result.vertex < 0) note_start(scene, options, in_contact, outputs);

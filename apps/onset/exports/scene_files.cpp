@@ -36,7 +36,11 @@ void add_scene_files(CLI::App& command, SceneFiles& files) {
       ->type_name("NAME");
 }
 
-void announce(const SceneFiles& files, Outputs& outputs) {
+void announce(const SceneFiles& files, const Scene& scene, Outputs& outputs) {
+  const onset::CollisionRules& rules = scene.mesh.rules();
+  if (!files.dump.empty() && (!rules.body_separations.empty() || rules.rest_positions.rows() > 0))
+    throw UsageError(
+        "--dump: the queries of a dump have one separation; without --rest and --body-separation");
   for (const char* option : {"--dump", "--export"})
     if ((option[2] == 'd' ? files.dump : files.geometry) == "-")
       throw UsageError(std::string(option) + ": a name for several files expected, not -");

@@ -17,8 +17,9 @@ struct SceneFiles {
 // --dump and --export.
 void add_scene_files(CLI::App& command, SceneFiles& files);
 
-// Before the work starts.
-void announce(const SceneFiles& files, Outputs& outputs);
+// Before the work starts. Throws UsageError where pairs have separations of their own, for a dump has one for
+// all.
+void announce(const SceneFiles& files, const Scene& scene, Outputs& outputs);
 
 // The pairs that matter: a step's limiting and worst pair; of an active set the earliest contacts, those that
 // spent their budget, and the worst pair.

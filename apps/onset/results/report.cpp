@@ -41,7 +41,8 @@ Json kind_json(const onset::PairFilterCounts& p) {
             {"static", p.both_static},
             {"same_body", p.same_body},
             {"adjacent", p.adjacent},
-            {"excluded", p.excluded}}}};
+            {"excluded", p.excluded},
+            {"within_rings", p.within_rings}}}};
 }
 
 Json primitive_json(const onset::PrimitiveFilterCounts& p) {

@@ -200,6 +200,17 @@ std::vector<Subject> small_subjects() {
   rules.excluded_intersections = {{1, 5, IntersectionKind::crossing, {}}};
   all.emplace_back("cloth with a seam", seam, rules);
 
+  // Two cloths, finer than what they keep of themselves and of each other.
+  Scene layers = scenes::joined(scenes::cloth(3, 4), scenes::translated(scenes::cloth(3, 4), {0, 0, 0.5}));
+  scenes::shake(layers, 0.5, random);
+  rules = {};
+  rules.bodies.assign(24, 0);
+  std::fill(rules.bodies.begin() + 12, rules.bodies.end(), 1);
+  rules.body_separations = {{0, 0, 0.5}, {1, 0, 0.25}};
+  rules.rest_positions = layers.x_t0, rules.rest_share = 0.75;
+  rules.excluded_rings = 1;
+  all.emplace_back("cloths finer than their separation", layers, rules);
+
   // Two cubes that touch in every way from the start, and then pass through each other.
   Scene touching = scenes::translated(scenes::cube(), {1, 0, 2});
   scenes::displace(touching, {0, 0, -1});

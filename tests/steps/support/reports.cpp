@@ -7,7 +7,7 @@ namespace onset::tests {
 
 static bool decides_exactly(const Asked& asked) {
   return asked.options.exactness == Exactness::exact && asked.options.min_separation == 0 &&
-         asked.thickness.empty();
+         asked.thickness.empty() && !asked.keeps;
 }
 
 static bool same_pair(const Pair& p, const Key& q) { return p.kind == q.kind && p.a == q.a && p.b == q.b; }
@@ -134,7 +134,8 @@ std::string broken_by_call(const Asked& asked, const SceneTruth& truth, const Ca
   const CallStep step = calls.ask(call, asked.x_t0, asked.x_t1, asked.options, d_hat, gap_share);
   const StepResult& r = step.result;
   const Eigen::MatrixXd end = end_of(call, asked.x_t0, asked.x_t1);
-  const Asked told{calls.mesh(call), asked.x_t0, end, asked.options, asked.thickness, asked.weld, asked.lets};
+  const Asked told{calls.mesh(call), asked.x_t0, end,        asked.options,
+                   asked.thickness,  asked.weld, asked.lets, asked.keeps};
   const bool another = end != asked.x_t1 || told.mesh.num_points() > 0;
   const SceneTruth of_end = another ? SceneTruth(told) : truth;
   const bool known = !another && std::any_of(safe.begin(), safe.end(), [&](const Safe& s) {
@@ -154,8 +155,8 @@ std::string broken_promise(const Asked& asked, const Calls& calls, double d_hat,
   const SceneTruth truth(asked);
   std::vector<Safe> safe;
   for (Call call : kCalls) {
-    const bool plain =
-        asked.options.norm == Norm::euclidean && asked.thickness.empty() && !asked.weld && !asked.lets;
+    const bool plain = asked.options.norm == Norm::euclidean && asked.thickness.empty() && !asked.weld &&
+                       !asked.lets && !asked.keeps;
     if (Calls::is_adapter(call) && !plain) continue;
     if (std::string broken = broken_by_call(asked, truth, calls, call, d_hat, gap_share, safe);
         !broken.empty())

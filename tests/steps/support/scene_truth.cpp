@@ -13,6 +13,7 @@ std::vector<int> StepScene::points() const {
 
 double Asked::separation(PairKind kind, const std::array<int, 4>& v) const {
   const int first = scenes::first_body(kind);
+  if (keeps) return keeps(kind, v);
   if (thickness.empty()) return options.min_separation;
   return options.min_separation + thickest(thickness, v, 0, first) + thickest(thickness, v, first, 4);
 }

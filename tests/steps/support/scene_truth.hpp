@@ -23,9 +23,11 @@ struct Asked {
   const Mesh& mesh;
   const Eigen::MatrixXd &x_t0, &x_t1;
   Options options;
-  std::vector<double> thickness;                                               // of the mesh; empty: none
-  bool weld = false;                                                           // as the mesh was told
-  std::function<bool(PairKind, int, int, const std::array<int, 4>&)> lets{};   // empty: all pairs meet
+  std::vector<double> thickness;                                              // of the mesh; empty: none
+  bool weld = false;                                                          // as the mesh was told
+  std::function<bool(PairKind, int, int, const std::array<int, 4>&)> lets{};  // empty: all pairs meet
+  // What each pair must keep; empty: Options::min_separation and thickness.
+  std::function<double(PairKind, const std::array<int, 4>&)> keeps{};
   double separation(PairKind kind, const std::array<int, 4>& vertices) const;  // that this pair must keep
   bool is_welded(PairKind kind, const std::array<int, 4>& vertices) const;
   // Every pair that may meet: visit(kind, a, b, vertices).
