@@ -178,17 +178,18 @@ void apply_rest(const CollisionRules& rules, MeshData& data) {
                                 "; it must be in (0, 1)");
   const Eigen::MatrixXd& x = rules.rest_positions;
   if (x.size() == 0 && (x.rows() == 0 || data.num_vertices == 0)) return;
-  if (x.rows() != data.num_vertices || x.cols() != 3)
+  if (x.rows() != data.num_vertices || x.cols() != data.dimension)
     throw std::invalid_argument("rest_positions has " + std::to_string(x.rows()) + " rows of " +
                                 std::to_string(x.cols()) + " coordinates for " +
-                                std::to_string(data.num_vertices) + " vertices, not rows of 3");
+                                std::to_string(data.num_vertices) + " vertices, not rows of " + std::to_string(data.dimension));
   auto rest = std::make_shared<RestShape>();
   rest->share = rules.rest_share;
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
     for (int a = 0; a < 3; ++a) {
-      if (!(std::fabs(x(v, a)) <= kMaxCoordinate))
-        reject_row("rest_positions", v, out_of_range(std::to_string(x(v, a)), "of magnitude"));
-      rest->x.push_back(x(v, a));
+      const double at = a < data.dimension ? x(v, a) : 0;
+      if (!(std::fabs(at) <= kMaxCoordinate))
+        reject_row("rest_positions", v, out_of_range(std::to_string(at), "of magnitude"));
+      rest->x.push_back(at);
     }
   data.rest = std::move(rest);
 }

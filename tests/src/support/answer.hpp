@@ -130,6 +130,10 @@ class Answer {
     add(r.intersections, r.touching, r.within_separation, r.copied_vertices, r.faces_without_area,
         r.unused_vertices, r.findings);
   }
+  void add_one(const TruncatedStep& r) {
+    ended(r);
+    add(r.positions, r.displacements, r.share, r.kept, r.pairs, r.limited_by, r.limiting);
+  }
   void add_one(const Constraints& c) { add(c.row, c.dof, c.value, c.bound); }
 
   template <class Result>

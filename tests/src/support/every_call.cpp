@@ -101,6 +101,13 @@ void ask_cfl(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
   a.add(compute_cfl_stepsize(mesh, s.scene.x_t0, s.scene.x_t1, s.close, o));
 }
 
+void ask_truncate(const Mesh& mesh, const Subject& s, const Options& options, Answer& a) {
+  TruncateOptions o = options;
+  a.add(truncate_step(mesh, s.scene.x_t0, s.scene.x_t1, o));
+  o.d_hat = s.d_hat;
+  a.add(truncate_step(mesh, s.scene.x_t0, s.scene.x_t1, o));
+}
+
 void ask_constraints(const Mesh& mesh, const Subject& s, const Options&, Answer& a) {
   std::vector<int> full;
   for (int v = 0; v < mesh.num_vertices(); ++v) full.push_back(2 * v + 1);
@@ -237,6 +244,7 @@ const std::vector<Call>& every_call() {
       {"close_pairs", true, ask_close_pairs},
       {"safe_distances, safe_step", false, ask_safe},
       {"compute_cfl_stepsize", true, ask_cfl},
+      {"truncate_step", true, ask_truncate},
       {"assemble_constraints", false, ask_constraints},
       {"intersections", true, ask_intersections},
       {"has_intersections", true, ask_has_intersections},

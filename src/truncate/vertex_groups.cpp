@@ -1,0 +1,66 @@
+#include "src/truncate/vertex_groups.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "src/start/places.hpp"
+
+namespace onset {
+
+VertexGroups::VertexGroups(const MeshData& mesh, const Motion& motion, const Positions& x_t0,
+                           const Stop& stop)
+    : group_(std::size_t(mesh.num_vertices)) {
+  std::iota(group_.begin(), group_.end(), 0);
+  if (mesh.weld)
+    for (const std::vector<int>& here : shared_places(x_t0, stop)) {
+      for (std::size_t j = 1; j < here.size(); ++j) {  // copies that part are no copies
+        const auto same = [&](int v) { return at_one_place(motion.t1(v), motion.t1(here[j])); };
+        const auto end = here.begin() + std::ptrdiff_t(j), first = std::find_if(here.begin(), end, same);
+        if (first != end) join(*first, here[j]);
+      }
+      if (stop.requested()) break;
+    }
+  if (!mesh.body.empty() && !mesh.rigid.empty()) {
+    std::vector<int> first(mesh.rigid.size(), -1);
+    for (int v = 0; v < mesh.num_vertices; ++v) {
+      const std::size_t body = std::size_t(mesh.body[std::size_t(v)]);
+      if (body >= mesh.rigid.size() || !mesh.rigid[body]) continue;
+      if (first[body] < 0) first[body] = v;
+      join(first[body], v);
+    }
+  }
+  number();
+}
+
+int VertexGroups::root(int v) {
+  while (group_[std::size_t(v)] != v) {
+    int& above = group_[std::size_t(v)];
+    v = above = group_[std::size_t(above)];
+  }
+  return v;
+}
+
+// The smaller id is the root.
+void VertexGroups::join(int v, int w) {
+  v = root(v), w = root(w);
+  group_[std::size_t(std::max(v, w))] = std::min(v, w);
+}
+
+void VertexGroups::number() {
+  std::vector<int> id(group_.size(), -1);
+  int groups = 0;
+  for (int v = 0; v < int(group_.size()); ++v) {
+    int& of_root = id[std::size_t(root(v))];
+    if (of_root < 0) of_root = groups++;
+    id[std::size_t(v)] = of_root;
+  }
+  group_ = std::move(id);
+  start_.assign(std::size_t(groups) + 1, 0);
+  for (const int g : group_) ++start_[std::size_t(g) + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  members_.resize(group_.size());
+  std::vector<std::size_t> place(start_.begin(), start_.end());
+  for (int v = 0; v < int(group_.size()); ++v) members_[place[std::size_t(of(v))]++] = v;
+}
+
+}  // namespace onset
