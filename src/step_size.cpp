@@ -9,6 +9,7 @@
 #include "onset/candidates.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/planes.hpp"
 #include "scene/primitive_filter.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/find_contacts.hpp"
@@ -35,8 +36,7 @@ StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Position
 }
 
 [[noreturn]] void reject(PairKind kind, std::size_t row, const std::string& why) {
-  throw std::invalid_argument((kind == PairKind::vertex_face ? "vertex_face row " : "edge_edge row ") +
-                              std::to_string(row) + ": " + why);
+  throw std::invalid_argument(std::string(to_string(kind)) + " row " + std::to_string(row) + ": " + why);
 }
 
 // Checks the rows up to where the budget ends, if it does.
@@ -57,6 +57,19 @@ std::vector<IdPair> checked(const MeshData& mesh, PairKind kind, const std::vect
       if (v[0] == v[std::size_t(k)] || (!vf && v[1] == v[std::size_t(k)]))
         reject(kind, i, "the two share vertex " + std::to_string(v[std::size_t(k)]));
     if (may_meet(mesh, kind, p.a, p.b)) pairs.push_back(p);
+  });
+  return pairs;
+}
+
+std::vector<IdPair> checked_planes(const MeshData& mesh, const std::vector<std::array<int, 2>>& list,
+                                   Budget& budget) {
+  std::vector<IdPair> pairs;
+  each_unless(budget.stop(), 0, list.size(), [&](std::size_t i) {
+    const IdPair p{list[i][0], list[i][1]};
+    if (p.a < 0 || p.a >= mesh.num_vertices || p.b < 0 || std::size_t(p.b) >= mesh.planes.size())
+      reject(PairKind::vertex_plane, i,
+             "the mesh has no pair " + std::to_string(p.a) + ", " + std::to_string(p.b));
+    if (may_meet_plane(mesh, p.a, p.b)) pairs.push_back(p);
   });
   return pairs;
 }
@@ -95,6 +108,7 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
     pairs.of(PairKind::vertex_face) =
         checked(mesh.data(), PairKind::vertex_face, candidates.vertex_face, budget);
     pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge, budget);
+    pairs.of(PairKind::vertex_plane) = checked_planes(mesh.data(), candidates.vertex_plane, budget);
     r = step_of_pairs(mesh, make_motion(mesh.data(), x_t0, x_t1), pairs, options, gap_share, budget);
     r.stats.seconds_total = clock.seconds();
   });

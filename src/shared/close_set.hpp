@@ -1,6 +1,8 @@
 // The candidates that are within d-hat at given positions.
 #pragma once
 
+#include <array>
+
 #include "onset/close_pairs.hpp"
 #include "scene/pair_source.hpp"
 #include "src/shared/visit_pairs.hpp"
@@ -14,6 +16,9 @@ void check_d_hat(double d_hat, bool zero_allowed);
 // this plus their thickness in exact motion, where storing positions changes distances by at most `rounding`.
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding);
 
+// Returns the Euclidean separation of a pair, rounded up; exact where there is nothing to add.
+double euclidean_separation(const Mesh& mesh, const Options& options, const Pair& pair);
+
 struct CloseInput {
   const Mesh& mesh;
   // 4 doubles a vertex: x y z and one unused, in any order of axes.
@@ -22,6 +27,8 @@ struct CloseInput {
   // Pairs beyond d_hat by up to this are listed as well.
   double slack;
   const Options& options;
+  // Of x: Motion::axes.
+  std::array<int, 3> axes;
 };
 
 // Adds the pair where its exact distance may be below d_hat plus its separation.

@@ -13,22 +13,27 @@
 
 namespace onset {
 
-// Streams the pairs that it holds, in batches, one a block.
+// Streams the pairs that it holds, in batches, one a block; those with planes are only held.
 class PairList final : public PairSource {
  public:
   std::size_t blocks(PairKind kind) const override;
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override;
 
   const std::vector<IdPair>& of(PairKind kind) const {
+    if (kind == PairKind::vertex_plane) return vertex_plane_;
     return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_;
   }
-  std::vector<IdPair>& of(PairKind kind) { return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_; }
+  std::vector<IdPair>& of(PairKind kind) {
+    if (kind == PairKind::vertex_plane) return vertex_plane_;
+    return kind == PairKind::vertex_face ? vertex_face_ : edge_edge_;
+  }
   PairCounts counts() const {
-    return {std::int64_t(vertex_face_.size()), std::int64_t(edge_edge_.size()), 0};
+    return {std::int64_t(vertex_face_.size()), std::int64_t(edge_edge_.size()),
+            std::int64_t(vertex_plane_.size())};
   }
 
  private:
-  std::vector<IdPair> vertex_face_, edge_edge_;
+  std::vector<IdPair> vertex_face_, edge_edge_, vertex_plane_;
 };
 
 // A list for the pairs that the culls of `narrow` cannot certify.
