@@ -13,10 +13,14 @@ struct BodyArguments {
   std::string bodies = "one";
   std::vector<int> fixed, rigid;
   bool all_rigid = false, weld = false;
+  std::vector<std::string> planes;
 };
 
-// --weld, alone; one of the body options.
+// --weld and --plane, alone; they are among the body options.
 void add_weld(CLI::App& command, bool& weld);
+void add_planes(CLI::App& command, std::vector<std::string>& planes);
+// Makes planes of their texts, which the option has checked.
+std::vector<onset::Plane> to_planes(const std::vector<std::string>& texts);
 
 void add_body_options(CLI::App& command, BodyArguments& arguments);
 
