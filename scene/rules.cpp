@@ -123,6 +123,8 @@ void apply_planes(const std::vector<Plane>& planes, MeshData& data) {
     for (const double x : n)
       if (!std::isfinite(x)) reject_row("planes", std::ptrdiff_t(r), "its normal is not finite");
     if (n[0] == 0 && n[1] == 0 && n[2] == 0) reject_row("planes", std::ptrdiff_t(r), "its normal is 0");
+    if (data.dimension == 2 && n[2] != 0)
+      reject_row("planes", std::ptrdiff_t(r), "its normal leaves the plane of the mesh");
     if (!std::isfinite(planes[r].offset)) reject_row("planes", std::ptrdiff_t(r), "its offset is not finite");
   }
   data.planes = planes;

@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "scene/pair_source.hpp"
+#include "src/planes/plane_blocks.hpp"
+#include "src/planes/plane_contacts.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/step_setup.hpp"
 #include "src/shared/visit_pairs.hpp"
@@ -43,6 +45,27 @@ class CandidateList {
     visit_pairs(*setup_.broad, kind, kBlocksATask, Task{}, budget_, visit, merge, [] { return false; });
     if (too_many() || budget_.outcome() != Outcome::free)
       for (Parts<IdRow>& of_kind : parts_) of_kind.clear();
+  }
+  // Those of planes: whom the cheap test does not keep beyond its separation.
+  void take_planes(const Options& options) {
+    const PlaneBlocks blocks(mesh_, setup_.motion.axes, options.norm);
+    const std::size_t most = use_.list ? std::size_t(std::max<std::int64_t>(room_, 0)) : ~std::size_t(0);
+    std::atomic<std::int64_t> count{0};
+    auto all = gather_planes<IdRow>(
+        blocks, most, budget_,
+        [&](const PlaneBlock& block, int v, std::vector<IdRow>& found) {
+          const PlaneSpan span(*block.plane, setup_.motion.t0(v), setup_.motion.t1(v));
+          if (!span.stays_beyond(*block.plane, separation_from_planes(mesh_, options, v), 0))
+            ++count, found.push_back({v, block.row});
+        },
+        [](const IdRow& ids) {
+          return IdPair{ids[0], ids[1]};
+        });
+    result_.counts.vertex_plane = count;
+    if (all.too_many) room_ = -1;
+    if (use_.visitor != nullptr && !all.found.empty())
+      call_host([&] { (*use_.visitor)(PairKind::vertex_plane, all.found.data(), all.found.size()); });
+    if (use_.list) result_.vertex_plane = std::move(all.found);
   }
   // Puts what was listed in order, unless the budget ends that.
   void sort() {
@@ -109,10 +132,11 @@ Candidates candidates(const Mesh& mesh, const Positions& x_t0, const Positions& 
       budget.begin_traversal(all_blocks(*setup.broad));
       for (const PairKind kind : kStepKinds)
         if (has_kind(mesh.data(), kind)) list.take(kind);
+      list.take_planes(options);
     }
     if (!list.too_many()) list.sort();
     c.outcome = list.too_many() ? Outcome::out_of_memory : budget.outcome();
-    if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = c.vertex_edge = {};
+    if (c.outcome != Outcome::free) c.vertex_face = c.edge_edge = c.vertex_edge = c.vertex_plane = {};
     if (budget.outcome() != Outcome::free) c.stats.looked_at = budget.done();
     c.stats.swept = c.counts;
     c.stats.seconds_broad = c.stats.seconds_total = setup.clock.seconds();

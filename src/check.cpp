@@ -10,6 +10,7 @@
 #include "src/shared/checked_options.hpp"
 #include "src/shared/rest/rest_limits.hpp"
 #include "src/start/places.hpp"
+#include "src/start/plane_starts.hpp"
 #include "src/start/rest_pairs.hpp"
 #include "src/start/start_findings.hpp"
 
@@ -102,7 +103,9 @@ void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& 
   rest.find(mesh, Rest::Pairs::within_separation, options, budget);
   if (rest.broad) {
     auto all = find_near(mesh, rest, options, limits.get(), most(options, sizeof(NearPair)), budget);
-    too_many = too_many || all.too_many;
+    auto planes = find_near_planes(mesh, rest.motion, options, most(options, sizeof(NearPair)), budget);
+    too_many = too_many || all.too_many || planes.too_many;
+    all.found.insert(all.found.end(), planes.found.begin(), planes.found.end());
     std::size_t touching = 0;
     for (const NearPair& p : all.found) touching += p.touches;
     report.touching.reserve(touching), report.within_separation.reserve(all.found.size() - touching);

@@ -24,7 +24,8 @@ ClosePairs close_pairs(const Mesh& mesh, const Positions& x, double d_hat, const
     std::vector<double> at(std::size_t(mesh.num_vertices()) * 4);
     for (int v = 0; v < setup.motion.num_vertices; ++v)
       for (int a = 0; a < 3; ++a) at[std::size_t(4 * v + a)] = setup.motion.t0(v)[a];
-    auto close = find_close(*setup.broad, {mesh, at.data(), d_hat, 0, options, setup.rest.get()}, budget);
+    auto close = find_close(
+        *setup.broad, {mesh, at.data(), d_hat, 0, options, setup.motion.axes, setup.rest.get()}, budget);
     r.pairs = std::move(close.found);
     r.outcome = close.too_many ? Outcome::out_of_memory : budget.outcome();
     r.seconds = setup.clock.seconds();

@@ -1,5 +1,6 @@
 #include "onset/constraints.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -36,6 +37,21 @@ std::array<int, 4> mapped(const std::array<int, 4>& vertices, const std::vector<
   return r;
 }
 
+// Returns the place of a plane along its unit normal.
+double place_of(const ActiveSet& set, int row) {
+  if (row < 0 || std::size_t(row) >= set.planes.size())
+    throw std::invalid_argument("a contact is with plane " + std::to_string(row) + "; the set has " +
+                                std::to_string(set.planes.size()));
+  const Plane& plane = set.planes[std::size_t(row)];
+  double largest = 0, squares = 0;
+  for (const double n : plane.normal) largest = std::max(largest, std::fabs(n));
+  const int exponent = std::ilogb(largest);
+  for (const double n : plane.normal) squares += std::ldexp(n, -exponent) * std::ldexp(n, -exponent);
+  int e = 0;
+  const double offset = std::frexp(plane.offset, &e);
+  return std::ldexp(offset / std::sqrt(squares), e - exponent);
+}
+
 }  // namespace
 
 Constraints assemble_constraints(const ActiveSet& set, double eta, const std::vector<int>& full_vertex) {
@@ -47,7 +63,12 @@ Constraints assemble_constraints(const ActiveSet& set, double eta, const std::ve
   for (std::vector<int>* ids : {&c.row, &c.dof}) ids->reserve(columns * points * set.size());
   c.value.reserve(columns * points * set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const std::array<int, 4> vertices = mapped(set[i].vertices, full_vertex);
+    std::array<int, 4> of_contact = set[i].vertices;
+    if (set[i].kind == PairKind::vertex_plane) {
+      of_contact.fill(set[i].a);
+      c.bound[i] += place_of(set, set[i].b);
+    }
+    const std::array<int, 4> vertices = mapped(of_contact, full_vertex);
     for (std::size_t k = 0; k < points; ++k)
       for (std::size_t a = 0; a < columns; ++a) {
         c.row.push_back(int(i));

@@ -8,6 +8,7 @@
 #include "narrowphase/at_rest/edge_face.hpp"
 #include "narrowphase/at_rest/edges_in_plane.hpp"
 #include "src/shared/checked_options.hpp"
+#include "src/start/plane_starts.hpp"
 #include "src/start/rest_pairs.hpp"
 
 namespace onset {
@@ -45,8 +46,9 @@ void add_if_common_in_plane(const MeshData& mesh, const Motion& motion, IdPair i
   found.push_back({ids.a, ids.b, kind_of(answer), {e[0], e[1], f[0], f[1], f[1]}});
 }
 
-// With `most` = 0 it only says whether there is any.
-Intersections find(const Mesh& mesh, const Positions& x, const Options& options, std::size_t most) {
+// With both 0 it only says whether there is any.
+Intersections find(const Mesh& mesh, const Positions& x, const Options& options, std::size_t most,
+                   std::size_t most_planes) {
   check(options);
   resolve_instruction_set(options.instruction_set);
   Intersections r;
@@ -57,9 +59,13 @@ Intersections find(const Mesh& mesh, const Positions& x, const Options& options,
     rest.find(mesh, Rest::Pairs::edge_face, options, budget);
     Gathered<Intersection> gathered;
     if (rest.broad) gathered = find_intersections(mesh, rest, most, budget);
+    Gathered<std::array<int, 2>> behind;
+    if (rest.broad && !gathered.too_many)
+      behind = find_behind_planes(mesh, rest.motion, options, most_planes, budget);
+    if (behind.too_many) gathered = {{}, true};
     r.outcome = gathered.too_many ? Outcome::out_of_memory : rest.outcome(budget);
     r.vertex = rest.motion.bad_vertex;
-    r.pairs = std::move(gathered.found);
+    r.pairs = std::move(gathered.found), r.behind_planes = std::move(behind.found);
     r.seconds = clock.seconds();
   });
   return r;
@@ -103,12 +109,13 @@ std::size_t Intersections::count(IntersectionKind kind) const noexcept {
 
 Intersections intersections(const Mesh& mesh, const Positions& x, const Options& options) {
   static_assert(sizeof(Intersection) == 32, "as documented");
-  return find(mesh, x, options, std::size_t(options.memory_limit) / sizeof(Intersection));
+  return find(mesh, x, options, std::size_t(options.memory_limit) / sizeof(Intersection),
+              std::size_t(options.memory_limit) / sizeof(std::array<int, 2>));
 }
 
 // The first one that is found is more than `most`, which ends the search.
 bool has_intersections(const Mesh& mesh, const Positions& x, const Options& options) {
-  return find(mesh, x, options, 0).outcome != Outcome::free;
+  return find(mesh, x, options, 0, 0).outcome != Outcome::free;
 }
 
 }  // namespace onset

@@ -9,6 +9,7 @@
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "src/planes/plane_contacts.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
 #include "src/shared/pair_list.hpp"
@@ -142,18 +143,24 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   in_arena(h.options.threads, [&] {
     const Clock clock;
     Budget budget(h.options);
-    const TraversalResult traversal =
+    const PlaneAsk ask{true, h.options.gap_share, h.options.touching_may_pass_through};
+    const PlaneContacts planes =
+        find_plane_contacts({h.mesh.data(), h.setup->motion, h.options, ask}, Collect::first, budget);
+    TraversalResult traversal =
         traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Collect::first, upper, budget);
+    traversal.limits.add(planes.limits);
     copy_counts(traversal, r.stats);
+    add_counts(planes, r.stats);
     limit_step(h.mesh, traversal, budget, upper, upper, r);
     r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
-    for (const PairKind kind : kStepKinds) {
-      const NarrowPhaseStats& stats = traversal.of(kind);
-      if (stats.least_share >= r.gap_share) continue;
+    const auto note_share = [&](PairKind kind, const NarrowPhaseStats& stats) {
+      if (stats.least_share >= r.gap_share) return;
       r.gap_share = std::max(stats.least_share, 0.0);
       r.gap_share_reduced = true;
       r.closest = to_pair(h.mesh, {kind, {stats.closest, 0, 0, 0, PairOutcome::free}});
-    }
+    };
+    for (const PairKind kind : kStepKinds) note_share(kind, traversal.of(kind));
+    note_share(PairKind::vertex_plane, planes.stats);
     r.assured = r.outcome != Outcome::below_rounding || r.step > 0;
   });
   return r;
@@ -174,7 +181,9 @@ ClosePairs LineSearch::close_pairs(double step) const {
     Budget budget(h.options);
     auto close =
         find_close(h.source(h.near),
-                   {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options, h.setup->rest.get()}, budget);
+                   {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options, h.setup->motion.axes,
+                    h.setup->rest.get()},
+                   budget);
     r.pairs = std::move(close.found);
     r.outcome = close.too_many ? Outcome::out_of_memory : budget.outcome();
     r.seconds = clock.seconds();

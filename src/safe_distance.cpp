@@ -10,6 +10,7 @@
 #include "onset/step_size.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/planes.hpp"
 #include "scene/primitive_filter.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/pair_list.hpp"
@@ -33,6 +34,9 @@ void check_close(const Mesh& mesh, const ClosePairs& close) {
   if (!(close.d_hat > 0)) throw std::invalid_argument("the close pairs have no d_hat");
   const auto is_of_mesh = [&](const ClosePair& p) {
     const MeshData& data = mesh.data();
+    if (p.kind == PairKind::vertex_plane)
+      return p.a >= 0 && p.a < mesh.num_vertices() && p.b >= 0 && std::size_t(p.b) < data.planes.size() &&
+             p.vertices == pair_vertices(data, p.kind, {p.a, p.b});
     if (std::find(kStepKinds.begin(), kStepKinds.end(), p.kind) == kStepKinds.end() ||
         !has_kind(data, p.kind))
       return false;
@@ -63,7 +67,8 @@ double length(const Positions& dx, std::ptrdiff_t v) {
 std::vector<double> distances_by_gaps(const Positions& x, const ClosePairs& close) {
   std::vector<double> r(std::size_t(x.rows()), close.d_hat);
   for (const ClosePair& p : close)
-    for (const int v : p.vertices) r[std::size_t(v)] = std::min(r[std::size_t(v)], p.gap);
+    for (const int v : p.vertices)
+      if (v >= 0) r[std::size_t(v)] = std::min(r[std::size_t(v)], p.gap);
   double largest = close.d_hat;
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
     for (int a = 0; a < x.cols(); ++a) largest = std::max(largest, std::fabs(x(v, a)));
@@ -149,7 +154,9 @@ StepResult compute_cfl_stepsize(const Mesh& mesh, const Positions& x_t0, const P
     const Motion motion = make_motion(mesh.data(), x_t0, x_t1);
     PairList listed;
     for (const ClosePair& p : close)
-      if (may_meet(mesh.data(), p.kind, p.a, p.b)) listed.of(p.kind).push_back({p.a, p.b});
+      if (p.kind == PairKind::vertex_plane ? may_meet_plane(mesh.data(), p.a, p.b)
+                                           : may_meet(mesh.data(), p.kind, p.a, p.b))
+        listed.of(p.kind).push_back({p.a, p.b});
     const double moved = most_moved(motion), rounding = rounding_of_distances(motion);
     const double bound = time_for_others((1 - gap_share) * close.d_hat - 2 * rounding, moved);
     r = step_of_pairs(mesh, motion, listed, options, gap_share, budget, std::min(bound, 1.0));

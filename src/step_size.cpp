@@ -9,6 +9,7 @@
 #include "onset/candidates.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/planes.hpp"
 #include "scene/primitive_filter.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/find_contacts.hpp"
@@ -62,6 +63,19 @@ std::vector<IdPair> checked(const MeshData& mesh, PairKind kind, const std::vect
   return pairs;
 }
 
+std::vector<IdPair> checked_planes(const MeshData& mesh, const std::vector<std::array<int, 2>>& list,
+                                   Budget& budget) {
+  std::vector<IdPair> pairs;
+  each_unless(budget.stop(), 0, list.size(), [&](std::size_t i) {
+    const IdPair p{list[i][0], list[i][1]};
+    if (p.a < 0 || p.a >= mesh.num_vertices || p.b < 0 || std::size_t(p.b) >= mesh.planes.size())
+      reject(PairKind::vertex_plane, i,
+             "the mesh has no pair " + std::to_string(p.a) + ", " + std::to_string(p.b));
+    if (may_meet_plane(mesh, p.a, p.b)) pairs.push_back(p);
+  });
+  return pairs;
+}
+
 }  // namespace
 
 StepResult compute_collision_free_stepsize(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
@@ -98,6 +112,7 @@ StepResult compute_collision_free_stepsize(const Mesh& mesh, const Candidates& c
     pairs.of(PairKind::edge_edge) = checked(mesh.data(), PairKind::edge_edge, candidates.edge_edge, budget);
     pairs.of(PairKind::vertex_edge) =
         checked(mesh.data(), PairKind::vertex_edge, candidates.vertex_edge, budget);
+    pairs.of(PairKind::vertex_plane) = checked_planes(mesh.data(), candidates.vertex_plane, budget);
     r = step_of_pairs(mesh, make_motion(mesh.data(), x_t0, x_t1), pairs, options, gap_share, budget);
     r.stats.seconds_total = clock.seconds();
   });

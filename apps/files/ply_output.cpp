@@ -15,6 +15,7 @@ std::vector<double> toi_of_vertices(const onset::ActiveSet& set, std::size_t ver
   std::vector<double> toi(vertices, -1);
   for (const onset::Contact& contact : set)
     for (const int v : contact.vertices) {
+      if (v < 0) continue;  // of a plane
       double& own = toi[std::size_t(v)];
       own = own < 0 ? contact.toi : std::min(own, contact.toi);
     }

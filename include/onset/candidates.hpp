@@ -18,6 +18,9 @@ struct Candidates {
   // Vertex and face; two edges, the smaller id first; in the plane vertex and edge instead. Sorted.
   std::vector<std::array<int, 2>> vertex_face, edge_edge;
   std::vector<std::array<int, 2>> vertex_edge;
+  // Vertex and row of CollisionRules::planes: those whose motion a cheap test does not keep beyond the
+  // separation and what storing can change, the same for any number of threads. Sorted.
+  std::vector<std::array<int, 2>> vertex_plane;
   PairCounts counts;
   // free: complete. Where a budget was spent the lists are empty.
   Outcome outcome = Outcome::free;

@@ -44,7 +44,8 @@ struct StartFinding {
 struct StartReport {
   // As intersections() lists them; CollisionRules::excluded_intersections leaves them out.
   std::vector<Intersection> intersections;
-  // Pairs at distance exactly 0, by (kind, a, b); CollisionRules::excluded_pairs leaves them out.
+  // Pairs at distance exactly 0, vertices on a plane or behind it among them, by (kind, a, b);
+  // CollisionRules::excluded_pairs leaves them out.
   std::vector<Pair> touching;
   // 0 < distance <= the pair's separation (min_separation + thickness, or what CollisionRules say of it), or
   // beyond that by no more than rounding, by (kind, a, b).

@@ -19,10 +19,12 @@ struct ClosePair : Pair {
   // second to -1, so that sum weights[i] x[vertices[i]] leads from the second to the first. A vertex that
   // takes no part has exactly 0; the others are the closest feature (point-point, point-edge, point-triangle
   // or edge-edge). The gradient of the distance by vertex i is weights[i] times the direction of that sum.
+  // vertex_plane: 1, 0, 0, 0, and the sum is the vertex alone: the direction is that of the plane's normal
+  // (mesh.rules().planes[b].normal).
   std::array<double, 4> weights{};
   // The length of that sum: within 2^-47 rho of the exact distance, and shorter by no more than its own
   // rounding (docs/theory.md, L42). Where the pair touches it may be a little more than 0, and then the sum
-  // has no direction to speak of.
+  // has no direction to speak of. vertex_plane: within 2^-48 of it, relatively; 0 on the plane and behind it.
   double distance = 0;
   // What the pair has to keep: Options::min_separation plus thickness, or what CollisionRules say of this
   // pair, times sqrt(3) in the maximum norm.

@@ -11,14 +11,15 @@ namespace onset {
 // any positions, x y z of vertex 0, x y z of vertex 1, ..., say those at the end of the step.
 struct Constraints {
   // Of entry k: 12 entries a contact, those of contact r in [12 r, 12 r + 12). Their columns differ, but for
-  // a point (CollisionRules::points), whose three come twice, the second time with value 0. In the plane 6
-  // entries a contact: x y of v, e0 and e1.
+  // a point (CollisionRules::points), whose three come twice, the second time with value 0, and for a contact
+  // with a plane, whose come once for each point, all but the first with value 0. In the plane 6 entries a
+  // contact: x y of v, e0 and e1.
   std::vector<int> row;
   // The column: 3 vertex + axis; in the plane 2 vertex + axis.
   std::vector<int> dof;
   // Weight times component of the normal, in [-1, 1].
   std::vector<double> value;
-  // eta, one a row.
+  // eta, one a row; of a contact with a plane eta + offset / |normal|, since p2 is no vertex.
   std::vector<double> bound;
   std::ptrdiff_t rows() const noexcept { return std::ptrdiff_t(bound.size()); }
 };
@@ -32,9 +33,9 @@ struct Constraints {
 // eta: model length, finite; Options::min_separation = eta finds the contacts that come closer than it.
 // full_vertex: empty, or for each vertex of the mesh its id (>= 0) among all vertices of a simulation, which
 // the columns then number (of a volume mesh only the surface collides).
-// Throws std::invalid_argument for an eta that is not finite, or naming the vertex where an id is missing,
-// negative or too large for 3 id + 2 to be an int, or where two vertices of a contact share one.
-// Safe to call concurrently.
+// Throws std::invalid_argument for an eta that is not finite, a plane that the set does not have, or naming
+// the vertex where an id is missing, negative or too large for 3 id + 2 to be an int, or where two vertices
+// of a contact share one. Safe to call concurrently.
 //
 // Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo, "A Large-Scale Benchmark and an Inclusion-Based
 // Algorithm for Continuous Collision Detection", ACM Transactions on Graphics 40(5), 2021, section 7.1.

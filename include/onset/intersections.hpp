@@ -1,6 +1,7 @@
 // Whether a mesh intersects itself where it stands: edges against faces, decided exactly.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <onset/export.hpp>
 #include <onset/mesh.hpp>
@@ -17,6 +18,9 @@ namespace onset {
 struct Intersections {
   // Ordered by (edge, face): the same bytes for any number of threads, instruction set and broad phase.
   std::vector<Intersection> pairs;
+  // {vertex, row of CollisionRules::planes} of those on the plane or behind it, ordered by both. They end as
+  // `pairs` do, at 8 bytes each.
+  std::vector<std::array<int, 2>> behind_planes;
   // free: all pairs are listed. non_finite, out_of_range, out_of_memory (more than Options::memory_limit
   // holds, at 32 bytes each): none is. out_of_time, cancelled: those found until then, at most 2^16 of more.
   Outcome outcome = Outcome::free;
@@ -25,14 +29,17 @@ struct Intersections {
   double seconds = 0;
 
   std::size_t size() const noexcept { return pairs.size(); }
-  bool empty() const noexcept { return pairs.empty(); }
+  // Says that there is neither of both.
+  bool empty() const noexcept { return pairs.empty() && behind_planes.empty(); }
+  // `pairs` alone.
   auto begin() const noexcept { return pairs.begin(); }
   auto end() const noexcept { return pairs.end(); }
   // How many of them are of one kind.
   ONSET_API std::size_t count(IntersectionKind kind) const noexcept;
 };
 
-// Finds every edge and face that have a common point, without sharing a vertex.
+// Finds every edge and face that have a common point, without sharing a vertex, and every vertex on a plane
+// or behind it.
 //
 // Guarantee: exactly these, for the stored doubles, without a tolerance and at any scale. What the rules of
 // the mesh leave out is left out here: static against static too, which no step can mend; with

@@ -45,6 +45,7 @@ struct LineSearchStep : StepResult {
 // Guarantee: as compute_collision_free_stepsize, for every step size asked.
 // Memory: 8 bytes a pair that single precision could not certify as free of contact for the whole direction;
 // with a d_hat, 8 more a pair that it could not certify as staying beyond d_hat, and 24 a vertex.
+// Planes are looked at anew for each step, and nothing is held for them.
 // Const calls are safe from several threads.
 //
 // Source: Wang, Ferguson, Schneider, Jiang, Attene, Panozzo, "A Large-Scale Benchmark and an Inclusion-Based

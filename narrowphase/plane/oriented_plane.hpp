@@ -70,8 +70,7 @@ struct PlaneTimes {
     if (!(s.start > least) || !(s.end < most)) return;
     const double share_below = kept * (s.start - least);
     contact_by = above_until(s.start - most, s.end - most, 1 + 0x1p-49);
-    stored_by =
-        above_until((s.start - most) - share_below, (s.end - most) - share_below, 1 + 0x1p-49);
+    stored_by = above_until((s.start - most) - share_below, (s.end - most) - share_below, 1 + 0x1p-49);
   }
 
  private:

@@ -199,8 +199,9 @@ std::optional<PairResult> decide_plane(const OrientedPlane& plane, const PlaneQu
     stored.until = 0;
   if (!r) {
     if (stored.from == 0 && stored.until > 1) return std::nullopt;
-    r = PairResult{pair, INFINITY, INFINITY, 0,
-                   ask.gap_share > 0 && stored.until > 0 ? PairOutcome::contact : PairOutcome::below_rounding};
+    r = PairResult{
+        pair, INFINITY, INFINITY, 0,
+        ask.gap_share > 0 && stored.until > 0 ? PairOutcome::contact : PairOutcome::below_rounding};
   }
   r->stored_limit = std::min(stored.until, r->step_limit);
   r->clear_from = stored.from;

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <mutex>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "narrowphase/plane/oriented_plane.hpp"
 #include "onset/options.hpp"
-#include "scene/motion/motion.hpp"
+#include "scene/pair_sink.hpp"
 #include "scene/planes.hpp"
 #include "src/shared/budget.hpp"
+#include "src/shared/visit_pairs.hpp"
 
 namespace onset {
 
@@ -25,13 +29,14 @@ struct PlaneBlock {
 
 class PlaneBlocks {
  public:
-  PlaneBlocks(const MeshData& mesh, const Motion& motion, const Options& options) {
+  // The axes of the positions that the planes are asked about: Motion::axes.
+  PlaneBlocks(const MeshData& mesh, const std::array<int, 3>& axes, Norm norm) {
     if (!mesh.mesh_planes) return;
     const std::vector<MeshPlane>& rows = mesh.mesh_planes->rows;
     planes_.reserve(rows.size());  // blocks point to them
     for (std::size_t p = 0; p < rows.size(); ++p) {
       const MeshPlane& row = rows[p];
-      planes_.emplace_back(row, motion.axes, options.norm == Norm::maximum);
+      planes_.emplace_back(row, axes, norm == Norm::maximum);
       const std::size_t count = row.all ? std::size_t(mesh.num_vertices) : row.vertices.size();
       for (std::size_t first = 0; first < count; first += kVertices)
         blocks_.push_back({&planes_.back(), int(p), row.all ? nullptr : row.vertices.data(), first,
@@ -71,5 +76,31 @@ class PlaneWatch {
   const Stop stop_;
   std::size_t count_ = 0;
 };
+
+// Gathers what visit(block, vertex, found) appends to `found` for the vertices of all planes: at most `most`,
+// ordered by ids_of(found). A spent budget ends it early, with some of what was found until then.
+template <class Found, class Visit, class IdsOf>
+Gathered<Found> gather_planes(const PlaneBlocks& blocks, std::size_t most, Budget& budget, const Visit& visit,
+                              const IdsOf& ids_of) {
+  Gathered<Found> all;
+  if (blocks.size() == 0) return all;
+  std::mutex mutex;
+  budget.begin_traversal(blocks.size());
+  blocks.visit(budget, [&](std::size_t, const PlaneBlock& block) {
+    std::vector<Found> found;
+    PlaneWatch watch(budget);
+    for (std::size_t i = block.first; i < block.last && !watch.ended(); ++i)
+      visit(block, block.vertex(i), found);
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (all.found.size() + found.size() > most) all.too_many = true;
+    if (!all.too_many) all.found.insert(all.found.end(), found.begin(), found.end());
+  });
+  if (all.too_many) all.found = {};
+  std::sort(all.found.begin(), all.found.end(), [&](const Found& x, const Found& y) {
+    const IdPair p = ids_of(x), q = ids_of(y);
+    return p.a != q.a ? p.a < q.a : p.b < q.b;
+  });
+  return all;
+}
 
 }  // namespace onset

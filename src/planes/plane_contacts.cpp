@@ -18,7 +18,7 @@ class PlaneTraversal {
   PlaneTraversal(const PlaneInput& input, Budget& budget)
       : in_(input),
         budget_(budget),
-        blocks_(input.mesh, input.motion, input.options),
+        blocks_(input.mesh, input.motion.axes, input.options.norm),
         maximum_norm_(input.options.norm == Norm::maximum) {}
 
   // Keeps all contacts, or the earliest `most`.

@@ -8,8 +8,10 @@
 #include "base/text_stream.hpp"
 #include "narrowphase/distance/closest_points.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "narrowphase/plane/plane_decision.hpp"
 #include "scene/motion/motion.hpp"
 #include "scene/pair_source.hpp"
+#include "src/planes/plane_blocks.hpp"
 #include "src/shared/visit_pairs.hpp"
 
 namespace onset {
@@ -17,21 +19,6 @@ namespace {
 
 // Returns a bound of |w|_2 / |w| in the norm in use: sqrt(3), rounded up, for the maximum norm.
 double norm_ratio(const Options& options) { return options.norm == Norm::maximum ? 0x1.bb67ae8584cabp+0 : 1; }
-
-// Returns the Euclidean separation of a pair, rounded up; exact where there is nothing to add.
-double separation_of(const CloseInput& in, const Pair& pair) {
-  const int* v = pair.vertices.data();
-  const int side = points_of_first_side(pair.kind);
-  if (has_pair_separations(in.mesh.data())) {
-    const double own =
-        separation_of_pair(in.mesh.data(), in.options, in.rest, pair.kind, {pair.a, pair.b}, v);
-    return norm_ratio(in.options) == 1 ? own : norm_ratio(in.options) * own * (1 + 0x1p-50);
-  }
-  const double thickness = thickest(in.mesh.data(), v, v + side) + thickest(in.mesh.data(), v + side, v + 4);
-  const double ratio = norm_ratio(in.options);
-  if (ratio == 1 && thickness == 0) return in.options.min_separation;
-  return ratio * (in.options.min_separation + thickness) * (1 + 0x1p-50);
-}
 
 void check_reach(double d_hat, bool zero_allowed) {
   if ((zero_allowed ? d_hat >= 0 : d_hat > 0) && d_hat <= kMaxCoordinate) return;
@@ -42,6 +29,20 @@ void check_reach(double d_hat, bool zero_allowed) {
 }
 
 }  // namespace
+
+double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest, const Pair& pair) {
+  const int* v = pair.vertices.data();
+  if (has_pair_separations(mesh.data()) && pair.kind != PairKind::vertex_plane) {
+    const double own = separation_of_pair(mesh.data(), options, rest, pair.kind, {pair.a, pair.b}, v);
+    return norm_ratio(options) == 1 ? own : norm_ratio(options) * own * (1 + 0x1p-50);
+  }
+  const int side = pair.kind == PairKind::edge_edge ? 2 : 1,
+            all = pair.kind == PairKind::vertex_plane ? 1 : 4;
+  const double thickness = thickest(mesh.data(), v, v + side) + thickest(mesh.data(), v + side, v + all);
+  const double ratio = norm_ratio(options);
+  if (ratio == 1 && thickness == 0) return options.min_separation;
+  return ratio * (options.min_separation + thickness) * (1 + 0x1p-50);
+}
 
 void check_d_hat(double d_hat, bool zero_allowed) { in_float_environment(check_reach, d_hat, zero_allowed); }
 
@@ -61,7 +62,7 @@ void add_if_close(const CloseInput& in, PairKind kind, IdPair ids, std::vector<C
   const auto same = [&](int i, int j) { return at_one_place(x[i], x[j]); };
   if (in.mesh.data().weld && any_across(points_of_first_side(kind), 4, same)) return;
   const ClosestPoints at = closest_points(kind, x);
-  p.separation = separation_of(in, p);
+  p.separation = euclidean_separation(in.mesh, in.options, in.rest, p);
   const double gap = at.lower - p.separation;
   if (gap > (in.d_hat + in.slack) * (1 + 0x1p-52)) return;
   std::copy(at.weights, at.weights + 4, p.weights.begin());
@@ -69,6 +70,27 @@ void add_if_close(const CloseInput& in, PairKind kind, IdPair ids, std::vector<C
   p.gap = std::max(0.0, gap * (1 - 0x1p-52));
   close.push_back(p);
 }
+
+namespace {
+
+// As add_if_close, after a cheap test. The distance is right to 2^-49, relatively.
+void add_if_close_to_plane(const CloseInput& in, const PlaneBlock& block, int v,
+                           std::vector<ClosePair>& close) {
+  ClosePair p;
+  static_cast<Pair&>(p) = {PairKind::vertex_plane, v, block.row, {v, -1, -1, -1}};
+  const double* x = in.x + 4 * std::size_t(v);
+  p.separation = euclidean_separation(in.mesh, in.options, in.rest, p);
+  if (PlaneSpan(*block.plane, x, x).stays_beyond(*block.plane, p.separation + (in.d_hat + in.slack), 0))
+    return;
+  p.distance = start_at_plane(*block.plane, question_of(*block.plane, x, x, 0, false)).distance;
+  const double gap = p.distance * (1 - 0x1p-48) - p.separation;
+  if (gap > (in.d_hat + in.slack) * (1 + 0x1p-52)) return;
+  p.weights = {1, 0, 0, 0};
+  p.gap = std::max(0.0, gap * (1 - 0x1p-52));
+  close.push_back(p);
+}
+
+}  // namespace
 
 Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& input, Budget& budget) {
   static_assert(sizeof(ClosePair) == 88, "as documented");
@@ -81,7 +103,19 @@ Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& i
       [](const ClosePair& p) {
         return IdPair{p.a, p.b};
       });
-  if (budget.outcome() != Outcome::free) all.found = {};
+  if (input.mesh.data().mesh_planes && !all.too_many) {
+    const auto planes = gather_planes<ClosePair>(
+        PlaneBlocks(input.mesh.data(), input.axes, Norm::euclidean), most - all.found.size(), budget,
+        [&](const PlaneBlock& block, int v, std::vector<ClosePair>& close) {
+          add_if_close_to_plane(input, block, v, close);
+        },
+        [](const ClosePair& p) {
+          return IdPair{p.a, p.b};
+        });
+    all.too_many = planes.too_many;
+    all.found.insert(all.found.end(), planes.found.begin(), planes.found.end());
+  }
+  if (budget.outcome() != Outcome::free || all.too_many) all.found = {};
   return all;
 }
 

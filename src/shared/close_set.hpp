@@ -1,6 +1,8 @@
 // The candidates that are within d-hat at given positions.
 #pragma once
 
+#include <array>
+
 #include "onset/close_pairs.hpp"
 #include "scene/pair_source.hpp"
 #include "scene/pairs/separation.hpp"
@@ -16,6 +18,10 @@ void check_d_hat(double d_hat, bool zero_allowed);
 // `rounding`.
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding);
 
+// Returns the Euclidean separation of a pair, rounded up; exact where there is nothing to add. rest: what the
+// shape at rest leaves of separations; null: all.
+double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest, const Pair& pair);
+
 struct CloseInput {
   const Mesh& mesh;
   // 4 doubles a vertex: x y z and one unused, in any order of axes.
@@ -24,6 +30,8 @@ struct CloseInput {
   // Pairs beyond d_hat by up to this are listed as well.
   double slack;
   const Options& options;
+  // Of x: Motion::axes.
+  std::array<int, 3> axes;
   // What the shape at rest leaves of separations; null: all.
   const RestLimits* rest = nullptr;
 };

@@ -10,6 +10,7 @@
 #include "scene/motion/extents.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "src/planes/plane_contacts.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/pair_traversal.hpp"
 #include "src/shared/rest/rest_limits.hpp"
@@ -85,8 +86,13 @@ StepResult step_of_pairs(const Mesh& mesh, const Motion& motion, const PairList&
   NarrowPhaseInput input = stored_step_input(data, motion, accuracy, options, gap_share, rounding);
   input.rest = rest.get();
   const NarrowPhase narrow(input);
-  const TraversalResult traversal = traverse_pairs(pairs, narrow, Collect::first, 1, budget);
+  const PlaneContacts planes =
+      limits_of_listed({data, motion, options, {true, gap_share, options.touching_may_pass_through}},
+                       pairs.of(PairKind::vertex_plane), budget);
+  TraversalResult traversal = traverse_pairs(pairs, narrow, Collect::first, 1, budget);
+  traversal.limits.add(planes.limits);
   copy_counts(traversal, r.stats);
+  add_counts(planes, r.stats);
   limit_step(mesh, traversal, budget, upper, 1, r);
   r.rounding = reported_rounding(rounding);
   r.stats.seconds_narrow = clock.seconds();

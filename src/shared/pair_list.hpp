@@ -14,7 +14,7 @@
 
 namespace onset {
 
-// Streams the pairs that it holds, in batches, one a block.
+// Streams the pairs that it holds, in batches, one a block; those with planes are only held.
 class PairList final : public PairSource {
  public:
   std::size_t blocks(PairKind kind) const override;
@@ -24,11 +24,12 @@ class PairList final : public PairSource {
   std::vector<IdPair>& of(PairKind kind) { return pairs_[std::size_t(kind)]; }
   PairCounts counts() const {
     const auto count = [&](PairKind kind) { return std::int64_t(of(kind).size()); };
-    return {count(PairKind::vertex_face), count(PairKind::edge_edge), count(PairKind::vertex_edge)};
+    return {count(PairKind::vertex_face), count(PairKind::edge_edge), count(PairKind::vertex_edge),
+            count(PairKind::vertex_plane)};
   }
 
  private:
-  std::array<std::vector<IdPair>, kStepKinds.size()> pairs_;
+  std::array<std::vector<IdPair>, std::size_t(PairKind::vertex_plane) + 1> pairs_;
 };
 
 // A list for the pairs that the culls of `narrow` cannot certify.

@@ -25,7 +25,7 @@ class Near {
   // as much; but for what is welded.
   void add_near(PairKind kind, const IdPair* pairs, std::size_t count, std::vector<NearPair>& found) const {
     std::vector<ClosePair> close;
-    const CloseInput input{mesh_, x_.data(), 0, 0, options_, rest_};
+    const CloseInput input{mesh_, x_.data(), 0, 0, options_, motion_.axes, rest_};
     for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
     for (const ClosePair& p : close) {
       const double* x[4];

@@ -23,6 +23,8 @@ std::string vertices_of(const int* first, const int* last) {
 
 std::string named(const Pair& p) {
   const int* v = p.vertices.data();
+  if (p.kind == PairKind::vertex_plane)
+    return "vertex " + std::to_string(p.a) + " and plane " + std::to_string(p.b);
   if (p.kind == PairKind::vertex_face)
     return "vertex " + std::to_string(p.a) + " and face " + std::to_string(p.b) + " (" +
            vertices_of(v + 1, v + 4) + ")";

@@ -29,7 +29,10 @@ bool says(const std::string& words, std::initializer_list<const char*> names) {
 
 }  // namespace
 
-const char* kind_name(onset::PairKind kind) { return kind == onset::PairKind::vertex_face ? "vf" : "ee"; }
+const char* kind_name(onset::PairKind kind) {
+  if (kind == onset::PairKind::vertex_plane) return "vp";
+  return kind == onset::PairKind::vertex_face ? "vf" : "ee";
+}
 
 onset::PairKind kind_from_path(const std::string& path) {
   for (std::filesystem::path p = path; p.has_filename(); p = p.parent_path()) {

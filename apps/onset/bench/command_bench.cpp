@@ -20,6 +20,7 @@ struct Inputs : Arguments {
   std::vector<std::int64_t> cloths;
   int repeats = 5, refine = 0;
   bool weld = false;
+  std::vector<std::string> planes;
 };
 
 Faces faces_of(const onset::Mesh& mesh) {
@@ -56,10 +57,17 @@ NamedCost bench(const std::string& name, const Scene& scene, const onset::Option
 // The scenes one after another, each as it is and then refined; only one is in memory at a time.
 std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& options, Outputs& outputs) {
   std::vector<NamedCost> costs;
+  const std::vector<onset::Plane> planes = to_planes(inputs.planes);
   const auto each_refinement = [&](const std::string& name, const std::function<Scene(int)>& make) {
     for (int times = 0; times <= inputs.refine; ++times) {
       const Progress progress("bench " + name);
-      costs.push_back(bench(times ? format("%s, refined %d times", name.c_str(), times) : name, make(times),
+      Scene scene = make(times);
+      if (!planes.empty()) {
+        onset::CollisionRules rules = scene.mesh.rules();
+        rules.planes = planes;
+        scene.mesh.set_rules(rules);
+      }
+      costs.push_back(bench(times ? format("%s, refined %d times", name.c_str(), times) : name, scene,
                             options, inputs.repeats));
     }
   };
@@ -114,6 +122,7 @@ void add_bench(CLI::App& app, Run& run) {
             "Runs of each call, after one to warm up; 0: times that one, for scenes that take long [5]", 0,
             1000);
   add_weld(*command, inputs->weld);
+  add_planes(*command, inputs->planes);
   add_common_options(*command, *inputs, "one row a scene, its size and the cost of the active set");
   command->callback([&run, inputs] { run = [inputs] { run_bench(*inputs); }; });
 }

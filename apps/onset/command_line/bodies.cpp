@@ -1,6 +1,9 @@
 #include "onset/command_line/bodies.hpp"
 
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <optional>
 
 #include "files/error.hpp"
 #include "onset/command_line/values.hpp"
@@ -42,7 +45,46 @@ void set_rest(const BodyArguments& a, const Scene& scene, onset::CollisionRules&
   rules.rest_positions = rest.x_t0, rules.rest_share = a.rest_share;
 }
 
+// nx,ny,nz,offset: four finite numbers, and a normal other than 0; none for another text.
+std::optional<onset::Plane> to_plane(const std::string& text) {
+  double x[4];
+  const char* at = text.c_str();
+  for (int i = 0; i < 4; ++i) {
+    char* end = nullptr;
+    x[i] = std::strtod(at, &end);
+    if (end == at || !std::isfinite(x[i]) || *end != (i < 3 ? ',' : '\0')) return std::nullopt;
+    at = end + 1;
+  }
+  if (x[0] == 0 && x[1] == 0 && x[2] == 0) return std::nullopt;
+  onset::Plane plane;
+  plane.normal = {x[0], x[1], x[2]}, plane.offset = x[3];
+  return plane;
+}
+
+std::string plane_fault(const std::string& text) {
+  if (to_plane(text)) return "";
+  return "four finite numbers nx,ny,nz,offset and a normal other than 0 expected, not '" + text + "'";
+}
+
 }  // namespace
+
+void add_planes(CLI::App& command, std::vector<std::string>& planes) {
+  command
+      .add_option(
+          "--plane", planes,
+          "A half-space that vertices stay out of: x is free where nx x + ny y + nz z > offset (repeat)")
+      ->check(plane_fault)
+      ->type_name("NX,NY,NZ,OFFSET")
+      ->expected(1)
+      ->take_all();
+}
+
+std::vector<onset::Plane> to_planes(const std::vector<std::string>& texts) {
+  std::vector<onset::Plane> planes;
+  for (const std::string& text : texts)
+    if (const auto plane = to_plane(text)) planes.push_back(*plane);
+  return planes;
+}
 
 void add_weld(CLI::App& command, bool& weld) {
   command.add_flag("--weld", weld,
@@ -89,12 +131,14 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
     if (a.rest_share >= 1) throw CLI::ValidationError("--rest-share", text + " is not below 1");
   };
   command.add_option_function<std::string>("--rest-share", take, "That share (default 0.5)")->type_name("S");
+  add_planes(command, a.planes);
 }
 
 void set_bodies(const BodyArguments& a, Scene& scene) {
   onset::Mesh& mesh = scene.mesh;
   onset::CollisionRules rules = mesh.rules();
   if (a.bodies == "components") rules.bodies = mesh.components();
+  rules.planes = to_planes(a.planes);
   mesh.set_rules(rules);
   const int count = mesh.num_bodies();
   const std::vector<bool> fixed = flags("--static-body", a.fixed, count);

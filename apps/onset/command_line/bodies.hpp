@@ -17,10 +17,14 @@ struct BodyArguments {
   std::vector<std::string> separations;  // I,J,LENGTH each
   std::string rest;                      // a path; empty for none
   double rest_share = 0.5;
+  std::vector<std::string> planes;
 };
 
-// --weld, alone; one of the body options.
+// --weld and --plane, alone; they are among the body options.
 void add_weld(CLI::App& command, bool& weld);
+void add_planes(CLI::App& command, std::vector<std::string>& planes);
+// Makes planes of their texts, which the option has checked.
+std::vector<onset::Plane> to_planes(const std::vector<std::string>& texts);
 
 void add_body_options(CLI::App& command, BodyArguments& arguments);
 

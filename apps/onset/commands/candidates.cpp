@@ -32,6 +32,7 @@ void write_csv(Output& csv, const onset::Candidates& candidates) {
   csv.write("kind,a,b\n");
   write_rows(csv, "vf", candidates.vertex_face);
   write_rows(csv, "ee", candidates.edge_edge);
+  write_rows(csv, "vp", candidates.vertex_plane);
 }
 
 Json candidates_json(const onset::Candidates& c) {

@@ -27,10 +27,12 @@ struct Exporter {
     PlyLayer layer;
     for (const onset::Contact& contact : set) {
       onset::Point middle{};
-      for (std::size_t k = 0; k < 4; ++k) {
+      const bool plane = contact.kind == onset::PairKind::vertex_plane;
+      for (std::size_t k = 0; k < (plane ? 1 : 4); ++k) {
         const int v = contact.vertices[k];
         const onset::Point x = mix(point(scene.x_t0, v), point(scene.x_t1, v), contact.toi);
-        for (std::size_t a = 0; a < 3; ++a) middle[a] += 0.5 * std::abs(contact.weights[k]) * x[a];
+        for (std::size_t a = 0; a < 3; ++a)
+          middle[a] += (plane ? 1 : 0.5) * std::abs(contact.weights[k]) * x[a];
       }
       layer.add(middle, contact.toi, contact.normal);
     }
@@ -65,9 +67,10 @@ struct Exporter {
     }
     for (const onset::Contact& contact : set) {
       const auto& v = contact.vertices;
-      if (contact.kind == onset::PairKind::vertex_face) {
+      if (contact.kind != onset::PairKind::edge_edge) {
         const int from = layer.add(point(scene.x_t0, v[0]), contact.toi);
         layer.edges.push_back({from, layer.add(point(scene.x_t1, v[0]), contact.toi)});
+        if (contact.kind == onset::PairKind::vertex_plane) continue;
         for (std::size_t c = 0; c < 3; ++c) sweep(layer, v[1 + c], v[1 + (c + 1) % 3], contact.toi);
       } else {
         sweep(layer, v[0], v[1], contact.toi);

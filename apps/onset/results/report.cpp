@@ -15,7 +15,9 @@ const char* exactness_name(onset::Exactness level) {
 }
 
 Json to_json(const onset::PairCounts& counts) {
-  return {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
+  Json json = {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
+  if (counts.vertex_plane > 0) json["vp"] = counts.vertex_plane;
+  return json;
 }
 
 const char* outcome_name(onset::Outcome outcome) {
@@ -159,12 +161,15 @@ std::string describe(const onset::Pair& pair) {
   const auto& v = pair.vertices;
   if (pair.kind == onset::PairKind::vertex_face)
     return format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3]);
+  if (pair.kind == onset::PairKind::vertex_plane) return format("vertex %d and plane %d", pair.a, pair.b);
   return describe_edge(pair.a, v[0], v[1]) + " and " + describe_edge(pair.b, v[2], v[3]);
 }
 
 std::string describe(const onset::PairCounts& c) {
-  return format("%lld vertex-face, %lld edge-edge", static_cast<long long>(c.vertex_face),
-                static_cast<long long>(c.edge_edge));
+  std::string text = format("%lld vertex-face, %lld edge-edge", static_cast<long long>(c.vertex_face),
+                            static_cast<long long>(c.edge_edge));
+  if (c.vertex_plane > 0) text += format(", %lld vertex-plane", static_cast<long long>(c.vertex_plane));
+  return text;
 }
 
 std::string describe_step(const onset::StepResult& r) {

@@ -41,6 +41,10 @@ StartLayer make_layer(const onset::Mesh& mesh, const onset::StartReport& report)
     if (faces.insert(p.face).second) layer.face(mesh.face(p.face), kFace);
   }
   for (const onset::Pair& p : report.touching) {
+    if (p.kind == onset::PairKind::vertex_plane) {
+      layer.corner(p.a, kTouching);
+      continue;
+    }
     const bool vf = p.kind == onset::PairKind::vertex_face;
     if (vf) layer.corner(p.a, kTouching);
     if (vf && faces.insert(p.b).second) layer.face(mesh.face(p.b), kTouching);

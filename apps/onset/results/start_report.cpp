@@ -105,7 +105,9 @@ std::string vertex_fields(const int* first, std::size_t count) {
 }
 
 std::string pair_row(const char* fault, const onset::Pair& p) {
-  return format("%s,%s,%d,%d", fault, kind_name(p.kind), p.a, p.b) + vertex_fields(p.vertices.data(), 4);
+  const std::size_t vertices = p.kind == onset::PairKind::vertex_plane ? 1 : 4;
+  return format("%s,%s,%d,%d", fault, kind_name(p.kind), p.a, p.b) +
+         vertex_fields(p.vertices.data(), vertices);
 }
 
 }  // namespace

@@ -137,8 +137,16 @@ class CollisionMesh {
     return Eigen::SparseMatrix<double>(m.transpose() * hessian * m);
   }
 
-  // Whether two vertices may collide; empty: all may. A pair of primitives is left out where none of its
-  // pairs of vertices may. Candidates::build and has_intersections ask it on the caller's thread.
+  // Half-spaces that all vertices stay out of, in every call below. Throws as onset::Mesh.
+  void set_planes(const std::vector<Plane>& planes) {
+    CollisionRules rules = mesh_.rules();
+    rules.planes = planes;
+    mesh_.set_rules(rules);
+  }
+
+  // Whether two vertices may collide; empty: all may. It is not asked about planes. A pair of primitives is
+  // left out where none of its pairs of vertices may. Candidates::build and has_intersections ask it on the
+  // caller's thread.
   std::function<bool(std::size_t, std::size_t)> can_collide;
 
   const onset::Mesh& onset_mesh() const { return mesh_; }

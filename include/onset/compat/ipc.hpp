@@ -74,6 +74,10 @@ struct EdgeEdgeCandidate {
 struct FaceVertexCandidate {
   int face_id, vertex_id;
 };
+// Of CollisionMesh::set_planes.
+struct PlaneVertexCandidate {
+  int plane_id, vertex_id;
+};
 
 // Pairs whose boxes meet during a motion, less those that can_collide leaves out: data, sorted. The free
 // functions below do not need it.
@@ -85,6 +89,7 @@ class Candidates {
   std::vector<EdgeVertexCandidate> ev_candidates;
   std::vector<EdgeEdgeCandidate> ee_candidates;
   std::vector<FaceVertexCandidate> fv_candidates;
+  std::vector<PlaneVertexCandidate> pv_candidates;
 
   // Finds all pairs whose boxes, each wider by inflation_radius (model length, >= 0), meet during the motion.
   // vertices_t0, vertices_t1: surface positions, the two ends of the motion; one: where they stand.
@@ -109,6 +114,7 @@ class Candidates {
     for (const auto& p : found.vertex_face)
       if (!can || any(&p[0], 1, mesh.onset_mesh().face(p[1]).data(), 3))
         fv_candidates.push_back({p[1], p[0]});
+    for (const auto& p : found.vertex_plane) pv_candidates.push_back({p[1], p[0]});
     for (const auto& p : found.edge_edge) {
       const auto a = mesh.onset_mesh().edge(p[0]), b = mesh.onset_mesh().edge(p[1]);
       if (can && !any(a.data(), 2, b.data(), 2)) continue;
@@ -126,7 +132,8 @@ class Candidates {
   }
 
   std::size_t size() const {
-    return vv_candidates.size() + ev_candidates.size() + ee_candidates.size() + fv_candidates.size();
+    return vv_candidates.size() + ev_candidates.size() + ee_candidates.size() + fv_candidates.size() +
+           pv_candidates.size();
   }
   bool empty() const { return size() == 0; }
   void clear() { *this = {}; }
@@ -165,6 +172,7 @@ class Candidates {
       c.edge_edge.push_back({p.edge_id, edge_of(p.vertex_id)});
     for (const FaceVertexCandidate& p : fv_candidates) c.vertex_face.push_back({p.vertex_id, p.face_id});
     for (const EdgeEdgeCandidate& p : ee_candidates) c.edge_edge.push_back({p.edge0_id, p.edge1_id});
+    for (const PlaneVertexCandidate& p : pv_candidates) c.vertex_plane.push_back({p.vertex_id, p.plane_id});
     return c;
   }
 };
@@ -201,7 +209,8 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
   });
 }
 
-// Tells, exactly, whether an edge and a face without a common vertex have a common point; a touch is one.
+// Tells, exactly, whether an edge and a face without a common vertex have a common point, a touch is one, or
+// a vertex is on a plane or behind it.
 // Also true for NaN.
 //
 // Parameters, errors, thread safety: as compute_collision_free_stepsize.
@@ -216,7 +225,8 @@ inline bool has_intersections(const CollisionMesh& mesh, const Eigen::MatrixXd& 
         if (mesh.can_collide(std::size_t(p.vertices[i]), std::size_t(p.vertices[j]))) return true;
     return false;
   };
-  return found.outcome != Outcome::free || std::any_of(found.begin(), found.end(), may);
+  return found.outcome != Outcome::free || !found.behind_planes.empty() ||
+         std::any_of(found.begin(), found.end(), may);
 }
 
 // Tells whether the whole exact motion is certified free of contact. False also where that is not known.

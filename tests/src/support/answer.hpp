@@ -73,7 +73,8 @@ class Answer {
   }
 
   void add_one(const Pair& p) { add(p.kind, p.a, p.b, p.vertices); }
-  void add_one(const PairCounts& c) { add(c.vertex_face, c.edge_edge); }
+  void add_one(const PairCounts& c) { add(c.vertex_face, c.edge_edge, c.vertex_plane); }
+  void add_one(const Plane& p) { add(p.normal, p.offset, p.group, p.mask); }
   void add_one(const Contact& c) {
     add_one(static_cast<const Pair&>(c));
     add(c.toi, c.toi_hi, c.step_limit, c.tolerance, c.outcome, c.certainty, c.degenerate, c.weights, c.normal,
@@ -97,7 +98,7 @@ class Answer {
   void add_one(const CollisionRules& r) {
     add(r.points, r.thickness, r.bodies, r.rigid_bodies, r.bodies_without_self_collision, r.excluded_bodies,
         r.static_vertices, r.groups, r.masks, r.weld, r.excluded_vertices, r.excluded_pairs,
-        r.excluded_intersections);
+        r.excluded_intersections, r.planes);
   }
 
   void add_one(const StepResult& r) {
@@ -111,11 +112,11 @@ class Answer {
   }
   void add_one(const ActiveSet& r) {
     ended(r);
-    add(r.contacts, r.complete_until);
+    add(r.contacts, r.complete_until, r.planes);
   }
   void add_one(const Candidates& r) {
     ended(r);
-    add(r.vertex_face, r.edge_edge, r.counts);
+    add(r.vertex_face, r.edge_edge, r.vertex_plane, r.counts);
   }
   void add_one(const ClosePairs& r) {
     ended(r);
@@ -123,7 +124,7 @@ class Answer {
   }
   void add_one(const Intersections& r) {
     ended(r);
-    add(r.pairs);
+    add(r.pairs, r.behind_planes);
   }
   void add_one(const StartReport& r) {
     ended(r);

@@ -161,6 +161,7 @@ Subject::Subject(std::string name, Scene scene, CollisionRules rules, double d_h
   candidates = compute_candidates(clean, at.x_t0, at.x_t1);
   safe = safe_distances(clean, at.x_t0, close);
   const auto add = [&](const Pair& p) {
+    if (p.kind == PairKind::vertex_plane) return;
     const auto t0 = corners(at.x_t0, p.vertices), t1 = corners(at.x_t1, p.vertices);
     if (p.kind == PairKind::vertex_face)
       vertex_face.push_back({t0, t1});
@@ -222,6 +223,17 @@ std::vector<Subject> small_subjects() {
   Scene touching = scenes::translated(scenes::cube(), {1, 0, 2});
   scenes::displace(touching, {0, 0, -1});
   all.emplace_back("cube on cube", scenes::joined(touching, scenes::cube()));
+
+  // A cloth that falls on the ground, a slope and a wall, some of it within its thickness or behind a plane.
+  Scene over_planes = scenes::cloth(4, 5);
+  scenes::shake(over_planes, 0.3, random);
+  scenes::displace(over_planes, {0.25, 0, -1});
+  rules = {};
+  rules.planes = {{{0, 0, 2}, -1}, {{-0.5, 0.25, 3}, -1.5}, {{1e300, 0, 0}, -1e299}, {{0, 1, 0}, 0.125}};
+  rules.planes[2].mask = 1;
+  rules.thickness.assign(20, 0x1p-9);
+  rules.excluded_pairs = {{PairKind::vertex_plane, 3, 0, {}}};
+  all.emplace_back("cloth over planes", over_planes, rules);
 
   // Large enough for several tasks.
   all.emplace_back("spheres", scenes::sphere_onto_sphere(7, 9, 0.01, 0.5));

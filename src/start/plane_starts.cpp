@@ -1,0 +1,58 @@
+#include "src/start/plane_starts.hpp"
+
+#include <algorithm>
+
+#include "src/planes/plane_contacts.hpp"
+#include "src/shared/close_set.hpp"
+
+namespace onset {
+namespace {
+
+// Returns where the vertex is, unless a cheap test tells that it is beyond the separation.
+std::optional<PlaneStart> near(const Motion& motion, const Options& options, const PlaneBlock& block, int v,
+                               double separation) {
+  const double* x = motion.t0(v);
+  if (PlaneSpan(*block.plane, x, x).stays_beyond(*block.plane, separation, 0)) return std::nullopt;
+  const bool maximum_norm = options.norm == Norm::maximum;
+  const PlaneStart start =
+      start_at_plane(*block.plane, question_of(*block.plane, x, x, separation, maximum_norm));
+  if (!start.within) return std::nullopt;
+  return start;
+}
+
+}  // namespace
+
+Gathered<std::array<int, 2>> find_behind_planes(const Mesh& mesh, const Motion& motion, const Options& options,
+                                                std::size_t most, Budget& budget) {
+  using Ids = std::array<int, 2>;
+  return gather_planes<Ids>(
+      PlaneBlocks(mesh.data(), motion.axes, options.norm), most, budget,
+      [&](const PlaneBlock& block, int v, std::vector<Ids>& found) {
+        if (near(motion, options, block, v, 0)) found.push_back({v, block.row});
+      },
+      [](const Ids& ids) {
+        return IdPair{ids[0], ids[1]};
+      });
+}
+
+Gathered<NearPair> find_near_planes(const Mesh& mesh, const Motion& motion, const Options& options,
+                                    std::size_t most, Budget& budget) {
+  return gather_planes<NearPair>(
+      PlaneBlocks(mesh.data(), motion.axes, options.norm), most, budget,
+      [&](const PlaneBlock& block, int v, std::vector<NearPair>& found) {
+        const auto start = near(motion, options, block, v, separation_from_planes(mesh.data(), options, v));
+        if (!start) return;
+        NearPair p{{}, start->touches};
+        static_cast<Pair&>(p.pair) = {PairKind::vertex_plane, v, block.row, {v, -1, -1, -1}};
+        p.pair.weights = {1, 0, 0, 0};
+        p.pair.separation = euclidean_separation(mesh, options, nullptr, p.pair);
+        p.pair.distance = start->distance;
+        p.pair.gap = std::max(0.0, (start->distance * (1 - 0x1p-48) - p.pair.separation) * (1 - 0x1p-52));
+        found.push_back(p);
+      },
+      [](const NearPair& p) {
+        return IdPair{p.pair.a, p.pair.b};
+      });
+}
+
+}  // namespace onset
