@@ -29,7 +29,9 @@ bool says(const std::string& words, std::initializer_list<const char*> names) {
 
 }  // namespace
 
-const char* kind_name(onset::PairKind kind) { return kind == onset::PairKind::vertex_face ? "vf" : "ee"; }
+const char* kind_name(onset::PairKind kind) {
+  return kind == onset::PairKind::vertex_face ? "vf" : kind == onset::PairKind::edge_edge ? "ee" : "ve";
+}
 
 onset::PairKind kind_from_path(const std::string& path) {
   for (std::filesystem::path p = path; p.has_filename(); p = p.parent_path()) {

@@ -13,6 +13,7 @@ struct BodyArguments {
   std::string bodies = "one";
   std::vector<int> fixed, rigid;
   bool all_rigid = false, weld = false;
+  int dimension = 3;
 };
 
 // --weld, alone; one of the body options.
@@ -20,7 +21,8 @@ void add_weld(CLI::App& command, bool& weld);
 
 void add_body_options(CLI::App& command, BodyArguments& arguments);
 
-// Throws UsageError for a body that the mesh has not.
+// With --dim 2 makes the mesh one in the plane first. Throws UsageError for a body that the mesh has not, and
+// InputError where a mesh has faces or leaves the plane z = 0.
 void set_bodies(const BodyArguments& arguments, Scene& scene);
 
 }  // namespace app

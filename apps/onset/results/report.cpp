@@ -15,7 +15,9 @@ const char* exactness_name(onset::Exactness level) {
 }
 
 Json to_json(const onset::PairCounts& counts) {
-  return {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
+  Json json = {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
+  if (counts.vertex_edge > 0) json["ve"] = counts.vertex_edge;
+  return json;
 }
 
 const char* outcome_name(onset::Outcome outcome) {
@@ -51,11 +53,13 @@ Json primitive_json(const onset::PrimitiveFilterCounts& p) {
 }  // namespace
 
 Json to_json(const onset::FilterCounts& p) {
-  return {{"vf", kind_json(p.vertex_face)},
-          {"ee", kind_json(p.edge_edge)},
-          {"vertices", primitive_json(p.vertices)},
-          {"edges", primitive_json(p.edges)},
-          {"faces", primitive_json(p.faces)}};
+  Json json = {{"vf", kind_json(p.vertex_face)},
+               {"ee", kind_json(p.edge_edge)},
+               {"vertices", primitive_json(p.vertices)},
+               {"edges", primitive_json(p.edges)},
+               {"faces", primitive_json(p.faces)}};
+  if (p.vertex_edge.pairs > 0) json["ve"] = kind_json(p.vertex_edge);
+  return json;
 }
 
 Json to_json(const onset::Stats& s) {
@@ -158,10 +162,13 @@ std::string describe(const onset::Pair& pair) {
   const auto& v = pair.vertices;
   if (pair.kind == onset::PairKind::vertex_face)
     return format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3]);
+  if (pair.kind == onset::PairKind::vertex_edge)
+    return format("vertex %d and ", pair.a) + describe_edge(pair.b, v[1], v[2]);
   return describe_edge(pair.a, v[0], v[1]) + " and " + describe_edge(pair.b, v[2], v[3]);
 }
 
 std::string describe(const onset::PairCounts& c) {
+  if (c.vertex_edge > 0) return format("%lld vertex-edge", static_cast<long long>(c.vertex_edge));
   return format("%lld vertex-face, %lld edge-edge", static_cast<long long>(c.vertex_face),
                 static_cast<long long>(c.edge_edge));
 }

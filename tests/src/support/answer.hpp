@@ -73,7 +73,7 @@ class Answer {
   }
 
   void add_one(const Pair& p) { add(p.kind, p.a, p.b, p.vertices); }
-  void add_one(const PairCounts& c) { add(c.vertex_face, c.edge_edge); }
+  void add_one(const PairCounts& c) { add(c.vertex_face, c.edge_edge, c.vertex_edge); }
   void add_one(const Contact& c) {
     add_one(static_cast<const Pair&>(c));
     add(c.toi, c.toi_hi, c.step_limit, c.tolerance, c.outcome, c.certainty, c.degenerate, c.weights, c.normal,
@@ -93,7 +93,9 @@ class Answer {
     add(c.pairs, c.masked, c.both_static, c.same_body, c.adjacent, c.excluded);
   }
   void add_one(const PrimitiveFilterCounts& c) { add(c.moving, c.statics, c.dropped); }
-  void add_one(const FilterCounts& c) { add(c.vertex_face, c.edge_edge, c.vertices, c.edges, c.faces); }
+  void add_one(const FilterCounts& c) {
+    add(c.vertex_face, c.edge_edge, c.vertex_edge, c.vertices, c.edges, c.faces);
+  }
   void add_one(const CollisionRules& r) {
     add(r.points, r.thickness, r.bodies, r.rigid_bodies, r.bodies_without_self_collision, r.excluded_bodies,
         r.static_vertices, r.groups, r.masks, r.weld, r.excluded_vertices, r.excluded_pairs,
@@ -111,11 +113,11 @@ class Answer {
   }
   void add_one(const ActiveSet& r) {
     ended(r);
-    add(r.contacts, r.complete_until);
+    add(r.contacts, r.complete_until, r.dimension);
   }
   void add_one(const Candidates& r) {
     ended(r);
-    add(r.vertex_face, r.edge_edge, r.counts);
+    add(r.vertex_face, r.edge_edge, r.vertex_edge, r.counts);
   }
   void add_one(const ClosePairs& r) {
     ended(r);
