@@ -76,15 +76,15 @@ int main(int argc, char** argv) {
   options.threads = 1;
   onset::StepResult step;
   onset::ActiveSet set;
-  const double of_step = median_seconds(repeats, [&] {
-    step = onset::compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1, options);
-  });
+  const double of_step = median_seconds(
+      repeats, [&] { step = onset::compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1, options); });
   double of_set[2];
   for (const bool certify : {false, true}) {
     options.exactness = certify ? onset::Exactness::certify : onset::Exactness::conservative;
-    of_set[certify] = median_seconds(
-        repeats, [&] { set = onset::construct_active_set(mesh, s.x_t0, s.x_t1, options); });
+    of_set[certify] =
+        median_seconds(repeats, [&] { set = onset::construct_active_set(mesh, s.x_t0, s.x_t1, options); });
   }
-  std::printf("%.17g %.17g %zu %.9g %.9g %.9g\n", step.step, step.toi, set.size(), of_step, of_set[1], of_set[0]);
+  std::printf("%.17g %.17g %zu %.9g %.9g %.9g\n", step.step, step.toi, set.size(), of_step, of_set[1],
+              of_set[0]);
   return 0;
 }

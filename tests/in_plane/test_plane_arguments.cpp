@@ -40,8 +40,9 @@ TEST_CASE("in the plane: three columns for a mesh of two, and the other way, are
   const Mesh space(wide, s.edges, Eigen::MatrixXi(0, 3));
   CHECK(space.dimension() == 3);
   CHECK(refusal([&] { close_pairs(space, s.x_t0, 0.1); }).find("one row of 3") != std::string::npos);
-  CHECK(refusal([&] { compute_collision_free_stepsize(mesh, s.x_t0.transpose(), s.x_t1); })
-            .find("x_t0.transpose()") != std::string::npos);
+  CHECK(refusal([&] {
+          compute_collision_free_stepsize(mesh, s.x_t0.transpose(), s.x_t1);
+        }).find("x_t0.transpose()") != std::string::npos);
 }
 
 TEST_CASE("in the plane: meshes, rules and candidates that do not fit are refused by name") {
@@ -49,7 +50,8 @@ TEST_CASE("in the plane: meshes, rules and candidates that do not fit are refuse
   const Mesh mesh = s.mesh();
   Eigen::MatrixXi faces(1, 3);
   faces << 0, 1, 2;
-  CHECK(refusal([&] { Mesh(s.x_t0, s.edges, faces); }).find("has no faces, but 1 are given") != std::string::npos);
+  CHECK(refusal([&] { Mesh(s.x_t0, s.edges, faces); }).find("has no faces, but 1 are given") !=
+        std::string::npos);
   CHECK(refusal([&] { Mesh(s.x_t0, faces); }).find("edges have 3 columns, not 2") == 0);
   CHECK(refusal([&] { Mesh::in_plane(2, s.edges); }).find("edge row") == 0);
   CollisionRules rules;
@@ -59,10 +61,13 @@ TEST_CASE("in the plane: meshes, rules and candidates that do not fit are refuse
   CHECK(refusal([&] { s.mesh(rules); }).find("excluded_pairs row 0: edge") == 0);
   Candidates c;
   c.edge_edge = {{0, 1}};
-  CHECK(refusal([&] { compute_collision_free_stepsize(mesh, c, s.x_t0, s.x_t1); }).find("edge_edge row 0") == 0);
+  CHECK(refusal([&] { compute_collision_free_stepsize(mesh, c, s.x_t0, s.x_t1); }).find("edge_edge row 0") ==
+        0);
   c = {};
   c.vertex_edge = {{0, -1}};
-  CHECK(refusal([&] { compute_collision_free_stepsize(mesh, c, s.x_t0, s.x_t1); }).find("vertex_edge row 0") == 0);
+  CHECK(refusal([&] {
+          compute_collision_free_stepsize(mesh, c, s.x_t0, s.x_t1);
+        }).find("vertex_edge row 0") == 0);
   c.vertex_edge = {{s.edges(0, 0), 0}};
   CHECK(refusal([&] { compute_collision_free_stepsize(mesh, c, s.x_t0, s.x_t1); }).find("share vertex") !=
         std::string::npos);
@@ -100,7 +105,8 @@ TEST_CASE("in the plane: row-major, float and packed positions are the same") {
   const double step = compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1).step;
   const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> a = s.x_t0, b = s.x_t1;
   CHECK(compute_collision_free_stepsize(mesh, a, b).step == step);
-  CHECK(compute_collision_free_stepsize(mesh, Positions(a.data(), a.rows(), 2), Positions(b.data(), b.rows(), 2))
+  CHECK(compute_collision_free_stepsize(mesh, Positions(a.data(), a.rows(), 2),
+                                        Positions(b.data(), b.rows(), 2))
             .step == step);
   CHECK(compute_collision_free_stepsize(mesh, s.x_t0, s.x_t0 + (s.x_t1 - s.x_t0)).step > 0);
 }

@@ -58,9 +58,10 @@ TEST_CASE("in the plane: the same bytes for any threads, instruction set and bro
       LineSearchOptions search = o;
       search.d_hat = 0.05;
       Answer a;
-      a.add(construct_active_set(mesh, s.x_t0, s.x_t1, o), compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1, o),
-            close_pairs(mesh, s.x_t0, 0.1, o), check(mesh, s.x_t1, o).touching.size(),
-            intersections(mesh, s.x_t1, o), LineSearch(mesh, s.x_t0, s.x_t1 - s.x_t0, search).largest_step());
+      a.add(construct_active_set(mesh, s.x_t0, s.x_t1, o),
+            compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1, o), close_pairs(mesh, s.x_t0, 0.1, o),
+            check(mesh, s.x_t1, o).touching.size(), intersections(mesh, s.x_t1, o),
+            LineSearch(mesh, s.x_t0, s.x_t1 - s.x_t0, search).largest_step());
       return a;
     };
     const Answer expected = ask({});

@@ -59,7 +59,8 @@ TEST_CASE("in the plane: rules leave out the pairs that they name") {
     check_pairs(s, rules, bodies_meet);
 
     rules.groups.resize(V), rules.masks.resize(V);
-    for (std::size_t v = 0; v < V; ++v) rules.groups[v] = 1u << (body[v] % 3), rules.masks[v] = body[v] == 3 ? 1 : 7;
+    for (std::size_t v = 0; v < V; ++v)
+      rules.groups[v] = 1u << (body[v] % 3), rules.masks[v] = body[v] == 3 ? 1 : 7;
     rules.excluded_vertices = {{0, 5}};
     rules.excluded_pairs = {{PairKind::vertex_edge, int(V) - 1, 0, {}}};
     const auto meet = [&](int v, const std::array<int, 2>& e) {

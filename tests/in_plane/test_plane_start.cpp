@@ -19,7 +19,7 @@ PlaneScene two_edges(const std::array<double, 8>& x) {
 }  // namespace
 
 TEST_CASE("in the plane: intersections of two edges are of three kinds") {
-  const auto found = [](const std::array<double, 8>& x) { 
+  const auto found = [](const std::array<double, 8>& x) {
     const PlaneScene s = two_edges(x);
     return intersections(s.mesh(), s.x_t0).pairs;
   };
@@ -62,7 +62,8 @@ TEST_CASE("in the plane: check finds what crosses and touches, and steps do not 
   const StartReport report = check(on.mesh(), on.x_t0);
   CHECK_FALSE(report.acceptable());
   REQUIRE(report.touching.size() == 1);
-  CHECK((report.touching[0].kind == PairKind::vertex_edge && report.touching[0].a == 2 && report.touching[0].b == 0));
+  CHECK((report.touching[0].kind == PairKind::vertex_edge && report.touching[0].a == 2 &&
+         report.touching[0].b == 0));
   CHECK(report.intersections.size() == 1);
   CHECK(report.findings[0].text.find("1 pair of edges intersects (0 crossing), first edge 0") == 0);
   PlaneScene pressed = on;
