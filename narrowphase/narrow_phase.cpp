@@ -120,7 +120,8 @@ KernelPairs NarrowPhase::prepare(PairKind kind, const IdPair* pairs, std::size_t
           uses_t_max() ? std::min(t_max.culls, 1.0) : 1,
           uses_t_max() ? std::min(t_max.advancement, 1.0) : 1,
           in_.options.norm == Norm::maximum,
-          inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks)};
+          inclusion_only ? 1 : static_cast<long long>(in_.options.max_checks),
+          kind == PairKind::vertex_edge};
 }
 
 int NarrowPhase::cull(PairKind kind, const KernelPairs& input, NarrowPhaseScratch& scratch) const {

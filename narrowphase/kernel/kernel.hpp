@@ -35,6 +35,8 @@ struct KernelPairs {
   double t_max;
   bool maximum_norm;
   long long max_checks;
+  // All third coordinates are 0, and pairs are a vertex and an edge.
+  bool in_plane;
 };
 
 // So many roundings of stored positions are kept where there is room: three are left to the next step.

@@ -101,6 +101,10 @@ inline void set_up(const KernelPairs& pairs, const int* rows, State<D4, K>& s) {
       for (int k = 0; k < K; ++k) R[a] = max(abs(s.c[end][k][a]), R[a]);
   }
   s.rho = sqrt(dot(R, R)) * V::all(1 + 0x1p-50);
+  // In the plane both edges are one: with the plane's axis for the first the cubic is that of the direction
+  // square to the edge, which has one product with all corners too.
+  if (pairs.in_plane)
+    for (V(&axis)[3] : e1) axis[0] = axis[1] = zero<V>(), axis[2] = one<V>();
   double d[4];
   for (int l = 0; l < 4; ++l) d[l] = pairs.separation[rows[l]];
   s.d = V::load(d) * scale;

@@ -31,6 +31,7 @@ std::string named(const Pair& p) {
   const auto edge = [&](int id, const int* ends) {
     return "edge " + std::to_string(id) + " (" + vertices_of(ends, ends + (ends[0] == ends[1] ? 1 : 2)) + ")";
   };
+  if (p.kind == PairKind::vertex_edge) return "vertex " + std::to_string(p.a) + " and " + edge(p.b, v + 1);
   return edge(p.a, v) + " and " + edge(p.b, v + 2);
 }
 
@@ -39,15 +40,22 @@ std::string seam_hint(const StartReport& report) {
   return report.copied_vertices.empty() ? "" : "; copied vertices make many of these: mend them first";
 }
 
-std::string of_intersections(const StartReport& report) {
+std::string of_intersections(const Mesh& mesh, const StartReport& report) {
   std::size_t crossing = 0;
   for (const Intersection& p : report.intersections) crossing += p.kind == IntersectionKind::crossing;
   const Intersection& p = report.intersections.front();
   const int* v = p.vertices.data();
   TextStream s;
-  s << counted(report.intersections.size(), "edge-face pair intersects", "edge-face pairs intersect") << " ("
-    << crossing << " crossing), first edge " << p.edge << " (" << vertices_of(v, v + (v[0] == v[1] ? 1 : 2))
-    << ") and face " << p.face << " (" << vertices_of(v + 2, v + 5) << "), " << to_string(p.kind)
+  const bool in_plane = mesh.dimension() == 2;
+  const auto edge_at = [&](const int* ends) {
+    return vertices_of(ends, ends + (ends[0] == ends[1] ? 1 : 2));
+  };
+  s << (in_plane
+            ? counted(report.intersections.size(), "pair of edges intersects", "pairs of edges intersect")
+            : counted(report.intersections.size(), "edge-face pair intersects", "edge-face pairs intersect"))
+    << " (" << crossing << " crossing), first edge " << p.edge << " (" << edge_at(v) << ") and "
+    << (in_plane ? "edge " : "face ") << p.face << " ("
+    << (in_plane ? edge_at(v + 2) : vertices_of(v + 2, v + 5)) << "), " << to_string(p.kind)
     << ": move them apart; to leave out those that are meant, "
        "rules.excluded_intersections = report.intersections"
     << seam_hint(report);
@@ -92,11 +100,13 @@ std::string of_faces(const Mesh& mesh, const StartReport& report) {
          "keep their edges alone";
 }
 
-std::string of_unused(const StartReport& report) {
+std::string of_unused(const Mesh& mesh, const StartReport& report) {
+  const bool in_plane = mesh.dimension() == 2;
   return counted(report.unused_vertices.size(), "vertex belongs", "vertices belong") +
          " to no edge and no face, first vertex " + std::to_string(report.unused_vertices.front()) +
-         ": they meet faces only; rules.points = report.unused_vertices lets them meet edges and each "
-         "other";
+         ": they meet " + (in_plane ? "edges" : "faces") +
+         " only; rules.points = report.unused_vertices lets them meet " + (in_plane ? "" : "edges and ") +
+         "each other";
 }
 
 }  // namespace
@@ -106,12 +116,12 @@ std::vector<StartFinding> start_findings(const Mesh& mesh, const StartReport& r)
   const auto add = [&](StartFault fault, std::size_t count, auto&& text) {
     if (count > 0) findings.push_back({fault, count, text()});
   };
-  add(StartFault::intersecting, r.intersections.size(), [&] { return of_intersections(r); });
+  add(StartFault::intersecting, r.intersections.size(), [&] { return of_intersections(mesh, r); });
   add(StartFault::touching, r.touching.size(), [&] { return of_touching(r); });
   add(StartFault::within_separation, r.within_separation.size(), [&] { return of_close(r); });
   add(StartFault::copied_vertices, r.copied_vertices.size(), [&] { return of_copies(r); });
   add(StartFault::faces_without_area, r.faces_without_area.size(), [&] { return of_faces(mesh, r); });
-  add(StartFault::unused_vertices, r.unused_vertices.size(), [&] { return of_unused(r); });
+  add(StartFault::unused_vertices, r.unused_vertices.size(), [&] { return of_unused(mesh, r); });
   return findings;
 }
 

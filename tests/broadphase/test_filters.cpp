@@ -155,7 +155,7 @@ TEST_CASE("every broad phase leaves out what the rules say, and nothing else", "
       unfiltered.t_max = input.t_max = round % 4 == 0 ? 0.3 : 1;
       for (const PairKind kind : kKinds) {
         if (kind == kEdgeFace && test != BoxTest::swept) continue;
-        unfiltered.edges_against_faces = input.edges_against_faces = kind == kEdgeFace;
+        unfiltered.intersections = input.intersections = kind == kEdgeFace;
         const auto all = make_broad_phase(BroadPhaseMethod::brute, unfiltered);
         IdPairs expected;
         for (const auto& [a, b] : candidates(*all, kind)) {

@@ -86,13 +86,10 @@ class ObjReader {
     keywords_ += " " + quoted(keyword) + (named_.size() == kNamed ? " ..." : "");
   }
 
-  // x y z, then nothing, a weight, a colour, or both.
+  // x y z, then nothing, a weight, a colour, or both; or x y, for z = 0.
   void vertex() {
     const std::size_t count = words_.size() - 1;
     const Place place{"vertex", mesh_.vertices(), number_};
-    if (count == 2)
-      mesh_.fail(place,
-                 "has two coordinates: two dimensions are not supported yet, add a third coordinate of 0");
     std::array<double, 3> position{};
     const Words text(words_.begin() + 1, words_.end());
     for (std::size_t i = 0; i < count; ++i) {
@@ -100,7 +97,7 @@ class ObjReader {
       if (!value) mesh_.fail(place, "is not three finite numbers: " + quoted(text));
       if (i < 3) position[i] = *value;
     }
-    if (count != 3 && count != 4 && count != 6 && count != 7)
+    if (count != 2 && count != 3 && count != 4 && count != 6 && count != 7)
       mesh_.fail(place, "has " + std::to_string(count) + " numbers, 3 expected: " + quoted(text));
     mesh_.vertex(position, number_, quoted(text));
   }

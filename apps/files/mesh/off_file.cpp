@@ -107,7 +107,7 @@ class TextReader : OffReader {
     place = next_row(place);
     if (words_.size() == 2)
       mesh_.fail(place,
-                 "has two coordinates: two dimensions are not supported yet, add a third coordinate of 0");
+                 "has two coordinates: for two dimensions add a third coordinate of 0, and give --dim 2");
     std::array<double, 3> position{};
     for (std::size_t i = 0; i < words_.size(); ++i) {
       const std::optional<double> value = parse_double(words_[i]);

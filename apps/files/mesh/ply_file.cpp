@@ -75,7 +75,7 @@ class PlyReader {
       const std::size_t k = find(e, name);
       if (k == e.properties.size() && axis == 2 && e.count > 0)
         mesh_.fail(e.line,
-                   "no vertex property z: two dimensions are not supported yet, add a third coordinate of 0");
+                   "no vertex property z: for two dimensions add a third coordinate of 0, and give --dim 2");
       if (k == e.properties.size()) mesh_.fail(e.line, "no vertex property " + name);
       if (e.properties[k].list) mesh_.fail(e.properties[k].line, "vertex property " + name + " is a list");
       roles[k] = axis;

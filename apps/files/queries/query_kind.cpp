@@ -30,8 +30,17 @@ bool says(const std::string& words, std::initializer_list<const char*> names) {
 }  // namespace
 
 const char* kind_name(onset::PairKind kind) {
-  if (kind == onset::PairKind::vertex_plane) return "vp";
-  return kind == onset::PairKind::vertex_face ? "vf" : "ee";
+  switch (kind) {
+    case onset::PairKind::vertex_face:
+      return "vf";
+    case onset::PairKind::edge_edge:
+      return "ee";
+    case onset::PairKind::vertex_edge:
+      return "ve";
+    case onset::PairKind::vertex_plane:
+      return "vp";
+  }
+  return "?";
 }
 
 onset::PairKind kind_from_path(const std::string& path) {

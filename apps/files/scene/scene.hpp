@@ -15,6 +15,15 @@ struct Scene {
   std::vector<std::string> notes;  // how the files were taken, for whoever reads the result
   std::string path;                // of the first
   bool welded = false;             // vertices at one place count as one (--weld)
+
+  // The positions as calls take them: those of a mesh in the plane have two columns.
+  onset::Positions start() const { return columns(x_t0); }
+  onset::Positions end() const { return columns(x_t1); }
+
+ private:
+  onset::Positions columns(const Points& x) const {
+    return mesh.dimension() == 2 ? onset::Positions(x.leftCols<2>()) : onset::Positions(x);
+  }
 };
 
 // Throws InputError: what read_mesh throws, and elements (faces, wires, points) that differ, naming the first

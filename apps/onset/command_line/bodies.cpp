@@ -42,7 +42,7 @@ void set_rest(const BodyArguments& a, const Scene& scene, onset::CollisionRules&
   if (rest.x_t0.rows() != scene.x_t0.rows())
     throw InputError(a.rest + " has " + std::to_string(rest.x_t0.rows()) + " vertices, " + scene.path + " " +
                      std::to_string(scene.x_t0.rows()));
-  rules.rest_positions = rest.x_t0, rules.rest_share = a.rest_share;
+  rules.rest_positions = rest.x_t0.leftCols(a.dimension), rules.rest_share = a.rest_share;
 }
 
 // nx,ny,nz,offset: four finite numbers, and a normal other than 0; none for another text.
@@ -64,6 +64,25 @@ std::optional<onset::Plane> to_plane(const std::string& text) {
 std::string plane_fault(const std::string& text) {
   if (to_plane(text)) return "";
   return "four finite numbers nx,ny,nz,offset and a normal other than 0 expected, not '" + text + "'";
+}
+
+// The same edges and points, in the plane.
+void lay_in_plane(Scene& scene) {
+  const std::string from = scene.path + " with --dim 2: ";
+  if (scene.mesh.num_faces() > 0)
+    throw InputError(from + "there are " + std::to_string(scene.mesh.num_faces()) +
+                     " faces, and lines alone lie in the plane");
+  for (const Points* x : {&scene.x_t0, &scene.x_t1})
+    for (Eigen::Index v = 0; v < x->rows(); ++v)
+      if ((*x)(v, 2) != 0)
+        throw InputError(from + "vertex " + std::to_string(v) + " has z = " + std::to_string((*x)(v, 2)) +
+                         (x == &scene.x_t1 ? " at the end" : "") + ", not 0");
+  Eigen::MatrixXi edges(scene.mesh.num_edges() - scene.mesh.num_points(), 2);
+  for (Eigen::Index e = 0; e < edges.rows(); ++e) {
+    const std::array<int, 2> ends = scene.mesh.edge(e);
+    edges.row(e) << ends[0], ends[1];
+  }
+  scene.mesh = onset::Mesh::in_plane(scene.mesh.num_vertices(), edges, scene.mesh.rules());
 }
 
 }  // namespace
@@ -109,6 +128,13 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
       ->expected(1)
       ->take_all();
   command.add_flag("--rigid", a.all_rigid, "No body meets itself");
+  command
+      .add_option(
+          "--dim", a.dimension,
+          "2: lines in the plane z = 0, whose vertices meet edges; no faces, and z may be missing in OBJ")
+      ->check(CLI::IsMember({2, 3}))
+      ->type_name("N")
+      ->capture_default_str();
   add_weld(command, a.weld);
   add_whole(command, "--rings", a.rings, "N",
             "Pairs joined by at most N edges of the mesh never meet, as those that share a vertex", 0,
@@ -135,6 +161,7 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
 }
 
 void set_bodies(const BodyArguments& a, Scene& scene) {
+  if (a.dimension == 2) lay_in_plane(scene);
   onset::Mesh& mesh = scene.mesh;
   onset::CollisionRules rules = mesh.rules();
   if (a.bodies == "components") rules.bodies = mesh.components();

@@ -13,6 +13,7 @@ struct BodyArguments {
   std::string bodies = "one";
   std::vector<int> fixed, rigid;
   bool all_rigid = false, weld = false;
+  int dimension = 3;
   int rings = 0;
   std::vector<std::string> separations;  // I,J,LENGTH each
   std::string rest;                      // a path; empty for none
@@ -28,7 +29,8 @@ std::vector<onset::Plane> to_planes(const std::vector<std::string>& texts);
 
 void add_body_options(CLI::App& command, BodyArguments& arguments);
 
-// Throws UsageError for a body that the mesh has not, InputError for a shape at rest of another mesh.
+// With --dim 2 makes the mesh one in the plane first. Throws UsageError for a body that the mesh has not, and
+// InputError where a mesh has faces or leaves the plane z = 0, and for a shape at rest of another mesh.
 void set_bodies(const BodyArguments& arguments, Scene& scene);
 
 }  // namespace app

@@ -8,8 +8,8 @@ namespace {
 
 onset::Candidates compute(const Scene& scene, const onset::Options& options, bool list) {
   const Progress progress("candidates");
-  return list ? onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1, options)
-              : onset::count_candidates(scene.mesh, scene.x_t0, scene.x_t1, options);
+  return list ? onset::compute_candidates(scene.mesh, scene.start(), scene.end(), options)
+              : onset::count_candidates(scene.mesh, scene.start(), scene.end(), options);
 }
 
 void write_rows(Output& csv, const char* kind, const std::vector<std::array<int, 2>>& pairs) {
@@ -32,6 +32,7 @@ void write_csv(Output& csv, const onset::Candidates& candidates) {
   csv.write("kind,a,b\n");
   write_rows(csv, "vf", candidates.vertex_face);
   write_rows(csv, "ee", candidates.edge_edge);
+  write_rows(csv, "ve", candidates.vertex_edge);
   write_rows(csv, "vp", candidates.vertex_plane);
 }
 

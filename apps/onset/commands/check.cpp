@@ -29,7 +29,7 @@ void join_copies(const Inputs& inputs, Scene& scene) {
 
 onset::StartReport look(const Scene& scene, const onset::Options& options) {
   const Progress progress("check");
-  return onset::check(scene.mesh, scene.x_t0, options);
+  return onset::check(scene.mesh, scene.start(), options);
 }
 
 void run_check(const Inputs& inputs) {

@@ -51,10 +51,12 @@ std::string words(const char* name, const onset::PrimitiveFilterCounts& plan) {
 
 void report(const Scene& scene, const Inputs& inputs) {
   const onset::FilterCounts& plan = scene.mesh.filter_counts();
-  std::string text = describe_sizes(scene.mesh) + format("bodies      %d\n", scene.mesh.num_bodies()) +
-                     words("vertex-face", plan.vertex_face, "vertex and face") +
-                     words("edge-edge", plan.edge_edge, "two edges") + words("vertices", plan.vertices) +
-                     words("edges", plan.edges) + words("faces", plan.faces);
+  std::string text =
+      describe_sizes(scene.mesh) + format("bodies      %d\n", scene.mesh.num_bodies()) +
+      (scene.mesh.dimension() == 2 ? words("vertex-edge", plan.vertex_edge, "vertex and edge")
+                                   : words("vertex-face", plan.vertex_face, "vertex and face") +
+                                         words("edge-edge", plan.edge_edge, "two edges")) +
+      words("vertices", plan.vertices) + words("edges", plan.edges) + words("faces", plan.faces);
   Json json = {{"bodies", scene.mesh.num_bodies()}, {"plan", to_json(plan)}};
   if (!inputs.b.empty()) {
     const std::vector<int> rest = at_rest(scene);

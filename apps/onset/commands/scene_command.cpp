@@ -56,7 +56,7 @@ void note_start(const Scene& scene, const onset::Options& options, bool in_conta
   all.threads = options.threads, all.broad_phase = options.broad_phase,
   all.instruction_set = options.instruction_set, all.time_limit = options.time_limit;
   const Stopwatch watch;
-  const bool may_meet = onset::has_intersections(scene.mesh, scene.x_t0, all);
+  const bool may_meet = onset::has_intersections(scene.mesh, scene.start(), all);
   const bool out_of_time = watch.elapsed().wall >= options.time_limit;
   if (may_meet && out_of_time)
     outputs.note("whether the start intersects itself was not found out within the time limit");

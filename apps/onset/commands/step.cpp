@@ -23,7 +23,7 @@ void write_csv(Output& csv, const onset::StepResult& r) {
 
 onset::StepResult compute(const Scene& scene, const onset::Options& options) {
   const Progress progress("step");
-  return onset::compute_collision_free_stepsize(scene.mesh, scene.x_t0, scene.x_t1, options);
+  return onset::compute_collision_free_stepsize(scene.mesh, scene.start(), scene.end(), options);
 }
 
 }  // namespace

@@ -54,6 +54,8 @@ struct Exporter {
       add(onset::PairKind::vertex_face, p, point(scene.x_t0, p[0]), face_middle(p[1]));
     for (const auto& p : pairs.edge_edge)
       add(onset::PairKind::edge_edge, p, edge_middle(p[0]), edge_middle(p[1]));
+    for (const auto& p : pairs.vertex_edge)
+      add(onset::PairKind::vertex_edge, p, point(scene.x_t0, p[0]), edge_middle(p[1]));
     return layer;
   }
 
@@ -71,7 +73,8 @@ struct Exporter {
         const int from = layer.add(point(scene.x_t0, v[0]), contact.toi);
         layer.edges.push_back({from, layer.add(point(scene.x_t1, v[0]), contact.toi)});
         if (contact.kind == onset::PairKind::vertex_plane) continue;
-        for (std::size_t c = 0; c < 3; ++c) sweep(layer, v[1 + c], v[1 + (c + 1) % 3], contact.toi);
+        const std::size_t sides = contact.kind == onset::PairKind::vertex_edge ? 1 : 3;
+        for (std::size_t c = 0; c < sides; ++c) sweep(layer, v[1 + c], v[1 + (c + 1) % 3], contact.toi);
       } else {
         sweep(layer, v[0], v[1], contact.toi);
         sweep(layer, v[2], v[3], contact.toi);
@@ -114,7 +117,7 @@ void write_geometry(const std::string& path, const Scene& scene, const onset::Op
   onset::Options all = options;
   all.memory_limit = onset::Options().memory_limit;
   write_ply(outputs.file(files[2]),
-            exporter.candidates(onset::compute_candidates(scene.mesh, scene.x_t0, scene.x_t1, all)),
+            exporter.candidates(onset::compute_candidates(scene.mesh, scene.start(), scene.end(), all)),
             earliest);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "files/error.hpp"
 #include "onset/command_line/values.hpp"
@@ -12,6 +13,13 @@ namespace app {
 namespace {
 
 constexpr std::size_t kDumpedContacts = 64;
+
+// A vertex and an edge are written as a vertex and a face of two corners, with z = 0: the same pair.
+std::vector<DumpedPair> in_space(std::vector<DumpedPair> pairs) {
+  for (DumpedPair& p : pairs)
+    if (p.pair.kind == onset::PairKind::vertex_edge) p.pair.kind = onset::PairKind::vertex_face;
+  return pairs;
+}
 
 void add_worst(std::vector<DumpedPair>& pairs, const onset::Stats& stats) {
   if (stats.worst) pairs.push_back({*stats.worst, "worst"});
@@ -56,13 +64,14 @@ void write_files(const SceneFiles& files, const Scene& scene, const onset::Optio
     std::vector<DumpedPair> pairs;
     if (result.limiting) pairs.push_back({*result.limiting, "limiting"});
     add_worst(pairs, result.stats);
-    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, result.stats.tolerance, outputs);
+    write_dump(files.dump, in_space(std::move(pairs)), scene.x_t0, scene.x_t1, options,
+               result.stats.tolerance, outputs);
   }
   if (files.geometry.empty()) return;
   onset::Options earliest = options;
   earliest.window = 0;
   write_geometry(files.geometry, scene, options,
-                 onset::construct_active_set(scene.mesh, scene.x_t0, scene.x_t1, earliest), outputs);
+                 onset::construct_active_set(scene.mesh, scene.start(), scene.end(), earliest), outputs);
 }
 
 void write_files(const SceneFiles& files, const Scene& scene, const onset::Options& options,
@@ -78,7 +87,8 @@ void write_files(const SceneFiles& files, const Scene& scene, const onset::Optio
       if (k < kDumpedContacts || gave_up) pairs.push_back({set[order[k]], gave_up ? "budget" : "contact"});
     }
     add_worst(pairs, set.stats);
-    write_dump(files.dump, pairs, scene.x_t0, scene.x_t1, options, set.stats.tolerance, outputs);
+    write_dump(files.dump, in_space(std::move(pairs)), scene.x_t0, scene.x_t1, options, set.stats.tolerance,
+               outputs);
   }
   if (!files.geometry.empty()) write_geometry(files.geometry, scene, options, set, outputs);
 }

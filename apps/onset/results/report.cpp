@@ -16,6 +16,7 @@ const char* exactness_name(onset::Exactness level) {
 
 Json to_json(const onset::PairCounts& counts) {
   Json json = {{"vf", counts.vertex_face}, {"ee", counts.edge_edge}};
+  if (counts.vertex_edge > 0) json["ve"] = counts.vertex_edge;
   if (counts.vertex_plane > 0) json["vp"] = counts.vertex_plane;
   return json;
 }
@@ -54,11 +55,13 @@ Json primitive_json(const onset::PrimitiveFilterCounts& p) {
 }  // namespace
 
 Json to_json(const onset::FilterCounts& p) {
-  return {{"vf", kind_json(p.vertex_face)},
-          {"ee", kind_json(p.edge_edge)},
-          {"vertices", primitive_json(p.vertices)},
-          {"edges", primitive_json(p.edges)},
-          {"faces", primitive_json(p.faces)}};
+  Json json = {{"vf", kind_json(p.vertex_face)},
+               {"ee", kind_json(p.edge_edge)},
+               {"vertices", primitive_json(p.vertices)},
+               {"edges", primitive_json(p.edges)},
+               {"faces", primitive_json(p.faces)}};
+  if (p.vertex_edge.pairs > 0) json["ve"] = kind_json(p.vertex_edge);
+  return json;
 }
 
 Json to_json(const onset::Stats& s) {
@@ -161,6 +164,8 @@ std::string describe(const onset::Pair& pair) {
   const auto& v = pair.vertices;
   if (pair.kind == onset::PairKind::vertex_face)
     return format("vertex %d and face %d (vertices %d %d %d)", pair.a, pair.b, v[1], v[2], v[3]);
+  if (pair.kind == onset::PairKind::vertex_edge)
+    return format("vertex %d and ", pair.a) + describe_edge(pair.b, v[1], v[2]);
   if (pair.kind == onset::PairKind::vertex_plane) return format("vertex %d and plane %d", pair.a, pair.b);
   return describe_edge(pair.a, v[0], v[1]) + " and " + describe_edge(pair.b, v[2], v[3]);
 }
@@ -168,6 +173,7 @@ std::string describe(const onset::Pair& pair) {
 std::string describe(const onset::PairCounts& c) {
   std::string text = format("%lld vertex-face, %lld edge-edge", static_cast<long long>(c.vertex_face),
                             static_cast<long long>(c.edge_edge));
+  if (c.vertex_edge > 0) text = format("%lld vertex-edge", static_cast<long long>(c.vertex_edge));
   if (c.vertex_plane > 0) text += format(", %lld vertex-plane", static_cast<long long>(c.vertex_plane));
   return text;
 }

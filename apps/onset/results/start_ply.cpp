@@ -38,7 +38,11 @@ StartLayer make_layer(const onset::Mesh& mesh, const onset::StartReport& report)
   std::set<int> edges, faces;
   for (const onset::Intersection& p : report.intersections) {
     if (edges.insert(p.edge).second) layer.edge(mesh.edge(p.edge), kEdge);
-    if (faces.insert(p.face).second) layer.face(mesh.face(p.face), kFace);
+    if (mesh.dimension() == 2) {
+      if (edges.insert(p.face).second) layer.edge(mesh.edge(p.face), kEdge);
+    } else if (faces.insert(p.face).second) {
+      layer.face(mesh.face(p.face), kFace);
+    }
   }
   for (const onset::Pair& p : report.touching) {
     if (p.kind == onset::PairKind::vertex_plane) {
@@ -48,7 +52,10 @@ StartLayer make_layer(const onset::Mesh& mesh, const onset::StartReport& report)
     const bool vf = p.kind == onset::PairKind::vertex_face;
     if (vf) layer.corner(p.a, kTouching);
     if (vf && faces.insert(p.b).second) layer.face(mesh.face(p.b), kTouching);
-    if (!vf)
+    const bool ve = p.kind == onset::PairKind::vertex_edge;
+    if (ve) layer.corner(p.a, kTouching);
+    if (ve && edges.insert(p.b).second) layer.edge(mesh.edge(p.b), kTouching);
+    if (p.kind == onset::PairKind::edge_edge)
       for (const int e : {p.a, p.b})
         if (edges.insert(e).second) layer.edge(mesh.edge(e), kTouching);
   }

@@ -31,6 +31,8 @@ std::string in_words(const onset::Intersection& p) {
                      : p.kind == onset::IntersectionKind::touching ? "touches"
                                                                    : "overlaps";
   const auto& v = p.vertices;
+  if (v[3] == v[4])  // two edges in the plane
+    return describe_edge(p.edge, v[0], v[1]) + " " + verb + " " + describe_edge(p.face, v[2], v[3]);
   return describe_edge(p.edge, v[0], v[1]) +
          format(" %s face %d (vertices %d %d %d)", verb, p.face, v[2], v[3], v[4]);
 }

@@ -17,14 +17,15 @@ namespace onset::ipc {
 
 // A surface, and how it lies in a full (volume) mesh. Vertices are rows.
 //
-// The calls below take surface positions (#V x 3, model length), as vertices() returns them. Const calls are
+// The calls below take surface positions (#V x dim, model length), as vertices() returns them. dim is 3, or 2
+// where the rest positions have two columns: a mesh of edges in the plane, without faces. Const calls are
 // safe from several threads where can_collide is. Maps between the two are the host's arithmetic, in whatever
 // floating-point environment it has set.
 class CollisionMesh {
  public:
-  // rest_positions: #V x 3, model length.
+  // rest_positions: #V x 3 or #V x 2, model length.
   // edges: #E x 2, faces: #F x 3, ids of vertices. Empty edges are those of the faces.
-  // displacement_map: 3 #V x 3 #full or #V x #full, from displacements of the full mesh to those of the
+  // displacement_map: dim #V x dim #full or #V x #full, from displacements of the full mesh to those of the
   // surface; empty: the surface is the full mesh.
   // Throws as onset::Mesh, also where `edges` lacks one of a face, as ipc-toolkit does, and
   // std::invalid_argument for a map of another shape.
@@ -35,7 +36,8 @@ class CollisionMesh {
         edges_(edges.size() == 0 && faces.size() > 0 ? onset::edges(faces) : edges),
         faces_(faces),
         map_(displacement_map),
-        mesh_(rest_, edges_, faces_) {
+        mesh_(rest_, edges_, faces_),
+        dim_(mesh_.dimension()) {
     check_map();
     for (int v = 0; v < rest_.rows(); ++v) full_vertex_.push_back(v);
     std::vector<bool> used(full_vertex_.size());
@@ -90,16 +92,16 @@ class CollisionMesh {
   // Vertices of no edge and no face, ascending: they collide with edges and with each other, too.
   const std::vector<int>& codim_vertices() const { return codim_vertices_; }
   std::size_t num_codim_vertices() const { return codim_vertices_.size(); }
-  std::size_t ndof() const { return 3 * num_vertices(); }
+  std::size_t ndof() const { return std::size_t(dim_) * num_vertices(); }
   std::size_t full_num_vertices() const {
     return std::size_t(map_.size() ? full_columns() : full_rest_.rows());
   }
-  std::size_t full_ndof() const { return 3 * full_num_vertices(); }
-  int dim() const { return 3; }
+  std::size_t full_ndof() const { return std::size_t(dim_) * full_num_vertices(); }
+  int dim() const { return dim_; }
   int to_full_vertex_id(int vertex) const { return full_vertex_.at(std::size_t(vertex)); }
 
-  // vertices: surface positions of full positions (#full x 3). The other two take displacements of the full
-  // mesh (#full x 3) and give surface positions and displacements of the surface.
+  // vertices: surface positions of full positions (#full x dim). The other two take displacements of the full
+  // mesh (#full x dim) and give surface positions and displacements of the surface.
   // Throws std::invalid_argument for a wrong number of rows or columns. So does `vertices` for a map from
   // another number of vertices than the surface has: positions of those at rest are not known, as they are
   // not in ipc-toolkit.
@@ -121,7 +123,7 @@ class CollisionMesh {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const RowMajor rows = full_displacements;
     const Eigen::VectorXd x = map_ * Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
-    return Eigen::Map<const RowMajor>(x.data(), rest_.rows(), 3);
+    return Eigen::Map<const RowMajor>(x.data(), rest_.rows(), dim_);
   }
 
   // Takes a gradient (ndof) or a Hessian (ndof x ndof) from the surface's degrees of freedom (x y z of vertex
@@ -151,9 +153,9 @@ class CollisionMesh {
 
   const onset::Mesh& onset_mesh() const { return mesh_; }
 
-  // Throws std::invalid_argument where positions are not #V x 3: Eigen does not ask in optimised builds.
+  // Throws std::invalid_argument where positions are not #V x dim: Eigen does not ask in optimised builds.
   void require_surface(const Eigen::MatrixXd& x) const {
-    if (x.rows() != rest_.rows() || x.cols() != 3)
+    if (x.rows() != rest_.rows() || x.cols() != dim_)
       throw std::invalid_argument("got " + shape(x) + " positions; the surface has " +
                                   std::to_string(rest_.rows()) + " vertices");
   }
@@ -163,8 +165,8 @@ class CollisionMesh {
   static std::string shape(const Matrix& x) {
     return std::to_string(x.rows()) + " x " + std::to_string(x.cols());
   }
-  static void require(const Eigen::MatrixXd& x, Eigen::Index rows) {
-    if (x.rows() != rows || x.cols() != 3)
+  void require(const Eigen::MatrixXd& x, Eigen::Index rows) const {
+    if (x.rows() != rows || x.cols() != dim_)
       throw std::invalid_argument("got " + shape(x) + " values; the full mesh has " + std::to_string(rows) +
                                   " vertices");
   }
@@ -175,14 +177,14 @@ class CollisionMesh {
   }
   void check_map() const {
     const Eigen::Index n = rest_.rows();
-    if (map_.size() > 0 && map_.rows() != n && (map_.rows() != 3 * n || map_.cols() % 3 != 0))
+    if (map_.size() > 0 && map_.rows() != n && (map_.rows() != dim_ * n || map_.cols() % dim_ != 0))
       throw std::invalid_argument("the displacement_map is " + shape(map_) + ": for " + std::to_string(n) +
                                   " vertices it is " + std::to_string(n) + " x #full or " +
-                                  std::to_string(3 * n) + " x 3 #full");
+                                  std::to_string(dim_ * n) + " x " + std::to_string(dim_) + " #full");
   }
-  Eigen::Index full_columns() const { return map_.rows() == rest_.rows() ? map_.cols() : map_.cols() / 3; }
+  Eigen::Index full_columns() const { return map_.rows() == rest_.rows() ? map_.cols() : map_.cols() / dim_; }
   Eigen::MatrixXd chosen(const Eigen::MatrixXd& full) const {
-    Eigen::MatrixXd x(rest_.rows(), 3);
+    Eigen::MatrixXd x(rest_.rows(), dim_);
     for (Eigen::Index v = 0; v < x.rows(); ++v) x.row(v) = full.row(full_vertex_[std::size_t(v)]);
     return x;
   }
@@ -190,7 +192,7 @@ class CollisionMesh {
     if (map_.size() && map_.rows() != rest_.rows()) return map_;
     std::vector<Eigen::Triplet<double>> entries;
     const auto add = [&](Eigen::Index v, Eigen::Index full, double value) {
-      for (int a = 0; a < 3; ++a) entries.emplace_back(int(3 * v + a), int(3 * full + a), value);
+      for (int a = 0; a < dim_; ++a) entries.emplace_back(int(dim_ * v + a), int(dim_ * full + a), value);
     };
     for (int column = 0; column < map_.outerSize(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator i(map_, column); i; ++i)
@@ -207,6 +209,7 @@ class CollisionMesh {
   Eigen::SparseMatrix<double> map_;
   std::vector<int> full_vertex_, codim_vertices_;
   onset::Mesh mesh_;
+  int dim_;
 };
 
 }  // namespace onset::ipc

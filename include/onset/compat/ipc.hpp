@@ -1,5 +1,6 @@
 // The calls of ipc-toolkit's collision detection by their names there, so that code for it compiles after
-// changing an include and a namespace (ipc becomes onset::ipc). 3D surfaces and linear motion only. What
+// changing an include and a namespace (ipc becomes onset::ipc). Linear motion only; in two dimensions rest
+// positions and all others have two columns. What
 // Onset says beyond a number (outcome, limiting pair) is in onset/step_size.hpp.
 //
 // Source: the collision detection of Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman,
@@ -85,7 +86,7 @@ class Candidates {
  public:
   // Of two codim_vertices.
   std::vector<VertexVertexCandidate> vv_candidates;
-  // Of one of them and any edge.
+  // Of one of them and any edge; in two dimensions of any vertex.
   std::vector<EdgeVertexCandidate> ev_candidates;
   std::vector<EdgeEdgeCandidate> ee_candidates;
   std::vector<FaceVertexCandidate> fv_candidates;
@@ -124,6 +125,15 @@ class Candidates {
         ev_candidates.push_back({p[0], b[0]});
       else
         vv_candidates.push_back({a[0], b[0]});
+    }
+    for (const auto& [v, e] : found.vertex_edge) {
+      const auto ends = mesh.onset_mesh().edge(e);
+      if (can && !any(&v, 1, ends.data(), 2)) continue;
+      if (e < int(mesh.num_edges()))
+        ev_candidates.push_back({e, v});
+      else if (v < ends[0] &&
+               std::binary_search(mesh.codim_vertices().begin(), mesh.codim_vertices().end(), v))
+        vv_candidates.push_back({v, ends[0]});
     }
   }
   void build(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices, double inflation_radius = 0,
@@ -166,6 +176,14 @@ class Candidates {
       return int(mesh.num_edges()) + int(place - codim.begin());
     };
     onset::Candidates c;
+    if (mesh.dim() == 2) {
+      for (const VertexVertexCandidate& p : vv_candidates)
+        c.vertex_edge.push_back({p.vertex0_id, edge_of(p.vertex1_id)});
+      for (const EdgeVertexCandidate& p : ev_candidates) c.vertex_edge.push_back({p.vertex_id, p.edge_id});
+      if (!ee_candidates.empty() || !fv_candidates.empty())
+        throw std::invalid_argument("edge-edge and face-vertex candidates have no place in two dimensions");
+      return c;
+    }
     for (const VertexVertexCandidate& p : vv_candidates)
       c.edge_edge.push_back({edge_of(p.vertex0_id), edge_of(p.vertex1_id)});
     for (const EdgeVertexCandidate& p : ev_candidates)
@@ -184,7 +202,7 @@ class Candidates {
 // the end of that is stored, with dx = vertices_t1 - vertices_t0 rounded to doubles (vertices_t1 itself,
 // where can_collide is set). NaN and infinities: 0.
 //
-// vertices_t0, vertices_t1: #V x 3, surface positions; vertices_t0 is assumed to be free of intersections.
+// vertices_t0, vertices_t1: #V x dim, surface positions; vertices_t0 is assumed to be free of intersections.
 // min_distance: model length, >= 0.
 // Throws std::invalid_argument for a wrong number of rows, and for min_distance and values of `ccd` out of
 // range.
@@ -209,8 +227,8 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const E
   });
 }
 
-// Tells, exactly, whether an edge and a face without a common vertex have a common point, a touch is one, or
-// a vertex is on a plane or behind it.
+// Tells, exactly, whether an edge and a face (in two dimensions two edges) without a common vertex have a
+// common point, a touch is one, or a vertex is on a plane or behind it.
 // Also true for NaN.
 //
 // Parameters, errors, thread safety: as compute_collision_free_stepsize.

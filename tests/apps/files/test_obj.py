@@ -69,6 +69,9 @@ class Obj(AppTest):
             steps.add(self.csv("active-set", *frames))
         self.assertEqual(len(steps), 1)
 
+    def test_two_coordinates_have_a_third_of_0(self):
+        self.same(lambda text: text.replace("v 4 0 0", "v 4 0"))
+
 
 class Refused(AppTest):
     """Each with the number of its line."""
@@ -97,9 +100,6 @@ class Refused(AppTest):
         self.refuse(5, "v 1.5 1 3", "v 1.5", "vertex 4", "1 numbers")
         self.refuse(5, "v 1.5 1 3", "v 1.5 1 3 4 5", "vertex 4", "5 numbers")
         self.refuse(5, "v 1.5 1 3", "v 1.5 1 3 red", "vertex 4", "red")
-
-    def test_two_dimensions(self):
-        self.refuse(2, "v 4 0 0", "v 4 0", "vertex 1", "two dimensions", "coordinate of 0")
 
     def test_elements(self):
         self.refuse(8, "f 4 5 6", "f 4 5 5", "face 1", "vertex 4", "index 5", "repeated")

@@ -69,8 +69,7 @@ std::map<std::array<int, 2>, PlaneTruth> contacts_of(const PlaneScene& s) {
 bool any_common_point(const Eigen::MatrixXd& x, const Eigen::MatrixXi& edges) {
   for (int v = 0; v < x.rows(); ++v)
     for (int e = 0; e < edges.rows(); ++e)
-      if (!share(edges, v, e) &&
-          touch(point_of(x, v), point_of(x, edges(e, 0)), point_of(x, edges(e, 1))))
+      if (!share(edges, v, e) && touch(point_of(x, v), point_of(x, edges(e, 0)), point_of(x, edges(e, 1))))
         return true;
   for (int e = 0; e < edges.rows(); ++e)
     for (int f = 0; f < e; ++f) {

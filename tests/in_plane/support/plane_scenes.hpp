@@ -16,8 +16,8 @@ struct PlaneScene {
   Mesh mesh(const CollisionRules& rules = {}) const { return Mesh(x_t0, edges, rules); }
 };
 
-// Closed polygons and open lines that do not meet at the start, `bodies` of them, and a random motion of up to
-// `speed`; all coordinates times `scale`.
+// Closed polygons and open lines that do not meet at the start, `bodies` of them, and a random motion of up
+// to `speed`; all coordinates times `scale`.
 PlaneScene polygons(int bodies, double speed, scenes::Random& random, double scale = 1);
 
 VertexEdgeQuery query_of(const PlaneScene& scene, int vertex, int edge);

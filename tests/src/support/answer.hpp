@@ -73,7 +73,7 @@ class Answer {
   }
 
   void add_one(const Pair& p) { add(p.kind, p.a, p.b, p.vertices); }
-  void add_one(const PairCounts& c) { add(c.vertex_face, c.edge_edge, c.vertex_plane); }
+  void add_one(const PairCounts& c) { add(c.vertex_face, c.edge_edge, c.vertex_edge, c.vertex_plane); }
   void add_one(const Plane& p) { add(p.normal, p.offset, p.group, p.mask); }
   void add_one(const Contact& c) {
     add_one(static_cast<const Pair&>(c));
@@ -94,7 +94,9 @@ class Answer {
     add(c.pairs, c.masked, c.both_static, c.same_body, c.adjacent, c.excluded);
   }
   void add_one(const PrimitiveFilterCounts& c) { add(c.moving, c.statics, c.dropped); }
-  void add_one(const FilterCounts& c) { add(c.vertex_face, c.edge_edge, c.vertices, c.edges, c.faces); }
+  void add_one(const FilterCounts& c) {
+    add(c.vertex_face, c.edge_edge, c.vertex_edge, c.vertices, c.edges, c.faces);
+  }
   void add_one(const CollisionRules& r) {
     add(r.points, r.thickness, r.bodies, r.rigid_bodies, r.bodies_without_self_collision, r.excluded_bodies,
         r.static_vertices, r.groups, r.masks, r.weld, r.excluded_vertices, r.excluded_pairs,
@@ -112,11 +114,11 @@ class Answer {
   }
   void add_one(const ActiveSet& r) {
     ended(r);
-    add(r.contacts, r.complete_until, r.planes);
+    add(r.contacts, r.complete_until, r.dimension, r.planes);
   }
   void add_one(const Candidates& r) {
     ended(r);
-    add(r.vertex_face, r.edge_edge, r.vertex_plane, r.counts);
+    add(r.vertex_face, r.edge_edge, r.vertex_edge, r.vertex_plane, r.counts);
   }
   void add_one(const ClosePairs& r) {
     ended(r);
