@@ -27,8 +27,7 @@ double length(const double (&d)[3]) {
 struct Ball {
   std::vector<double> ends, share;
 
-  Ball(const Positions& x_t0, const Positions& x_t1, double d_hat)
-      : share(std::size_t(x_t0.rows()), 1.0) {
+  Ball(const Positions& x_t0, const Positions& x_t1, double d_hat) : share(std::size_t(x_t0.rows()), 1.0) {
     const double radius = 0.5 * d_hat;
     for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v) {
       double dx[3];

@@ -8,11 +8,14 @@
 #include <onset/constraints.hpp>
 #include <onset/intersections.hpp>
 #include <onset/line_search.hpp>
+#include <onset/match.hpp>
 #include <onset/mesh.hpp>
 #include <onset/options.hpp>
 #include <onset/query.hpp>
 #include <onset/result.hpp>
 #include <onset/safe_distance.hpp>
 #include <onset/step_size.hpp>
+#include <onset/tetrahedra.hpp>
 #include <onset/truncate_step.hpp>
+#include <onset/vertex_map.hpp>
 #include <onset/views.hpp>

@@ -78,7 +78,7 @@ struct TruncatedStep {
 // SIGGRAPH 2026; the choice of normals, the treatment of rounding and the proof: docs/per-vertex-steps.md.
 //
 // Example:
-//   const onset::TruncatedStep r = onset::truncate_step(mesh, x, x_new);
+//   const onset::TruncatedStep r = onset::truncate_step(mesh, x_t0, x_t1);
 //   x = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
 //       r.positions.data(), mesh.num_vertices(), 3);
 ONSET_API TruncatedStep truncate_step(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,

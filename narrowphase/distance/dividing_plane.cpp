@@ -145,8 +145,8 @@ class Search {
     double largest = 0;
     for (int k = 0; k < 4; ++k)
       for (int a = 0; a < 3; ++a)
-        largest = std::max({largest, std::fabs(p_.x0[k][a] - frame_.origin[a]),
-                            std::fabs(p_.x1[k][a] - frame_.origin[a])});
+        largest = std::max(
+            {largest, std::fabs(p_.x0[k][a] - frame_.origin[a]), std::fabs(p_.x1[k][a] - frame_.origin[a])});
     frame_.scale = inverse_unit(largest);
   }
 

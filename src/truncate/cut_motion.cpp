@@ -71,9 +71,7 @@ class Cutting {
 
  private:
   int vertex(const Entry& e) const { return limits_[e.limit].pair.vertices[e.place]; }
-  bool is_first(const Entry& e) const {
-    return e.place < points_of_first_side(limits_[e.limit].pair.kind);
-  }
+  bool is_first(const Entry& e) const { return e.place < points_of_first_side(limits_[e.limit].pair.kind); }
   static double above(const DividingPlane& plane, bool first, const double* x) {
     const Height h = precise_height(plane, x);
     return first ? h.lower - plane.first : plane.second - h.upper;

@@ -3,7 +3,7 @@ the pairs that cross on the way to what is stored, counted exactly.
 
     truncate_beside_ipctk.py TRUNCATED_STEPS [TRIALS]
 
-Both keep a tenth of each gap. ipctk's radius is that of the longest way, and twice that: whichever keeps more is shown beside.
+Both keep a tenth of each gap. ipctk's radius is half of the longest way, that, and twice that.
 """
 
 import pathlib
@@ -100,7 +100,7 @@ def main():
         peer = Program(program, scenes)
         ours = peer.truncate()
         rows = [("onset", ours)]
-        for factor in (1, 2):
+        for factor in (0.5, 1, 2):
             longest = [np.linalg.norm(x1 - x0, axis=1).max() for x0, x1, _ in scenes]
             rows.append((f"ipctk, radius {factor}", [theirs(*s, factor * way) for s, way in zip(scenes, longest)]))
         shares = {who: np.mean([kept(s, e) for s, e in zip(scenes, ends)]) for who, ends in rows}

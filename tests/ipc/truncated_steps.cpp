@@ -1,8 +1,10 @@
-// Steps for each vertex on scenes of a file, for truncate_beside_ipctk.py: any number of #V, #F (int64), x_t0,
-// x_t1 (#V x 3 doubles, rows), faces (#F x 3 int32).
+// Steps for each vertex on scenes of a file, for truncate_beside_ipctk.py: any number of #V, #F (int64),
+// x_t0, x_t1 (#V x 3 doubles, rows), faces (#F x 3 int32).
 //   truncated_steps truncate SCENES ENDS GAP_SHARE   writes the positions that truncate_step gives
-//   truncated_steps crossings SCENES ENDS            prints, a line a scene, the pairs that touch exactly on the
-//                                                    straight way from x_t0 to ENDS, and those that start touching
+//   truncated_steps crossings SCENES ENDS            prints, a line a scene, the pairs that touch exactly on
+//   the
+//                                                    straight way from x_t0 to ENDS, and those that start
+//                                                    touching
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -68,8 +70,7 @@ int main(int argc, char** argv) {
     }
     TruncateOptions options;
     options.gap_share = std::atof(argv[4]);
-    const TruncatedStep r =
-        truncate_step(Mesh(scene.x[0], scene.faces), scene.x[0], scene.x[1], options);
+    const TruncatedStep r = truncate_step(Mesh(scene.x[0], scene.faces), scene.x[0], scene.x[1], options);
     ends.write(reinterpret_cast<const char*>(r.positions.data()), std::streamsize(r.positions.size() * 8));
   }
   return ends ? 0 : 1;

@@ -97,6 +97,11 @@ const std::vector<Call>& calls() {
          const LineSearchStep r = search.largest_step();
          return Answer{r.outcome, r.step};
        }},
+      {"truncate_step",
+       [](const Crowd& c, const Options& o) {
+         const TruncatedStep r = truncate_step(c.mesh, c.scene.x_t0, c.scene.x_t1, o);
+         return Answer{r.outcome, r.kept};
+       }},
       {"check",
        [](const Crowd& c, const Options& o) {
          const StartReport r = check(c.mesh, c.scene.x_t0, o);

@@ -55,7 +55,8 @@ NearScene near_scene(Random& random) {
   StepScene& scene = near.scene;
   const int parts = integer(random, 2, 4), wires = integer(random, 0, parts);
   scene.x_t0.resize(3 * parts, 3);
-  const double gap = power_of_ten(random, -14, -1), size = power_of_ten(random, -9, 9);
+  const bool touching = integer(random, 0, 9) == 0;
+  const double gap = touching ? 0 : power_of_ten(random, -14, -1), size = power_of_ten(random, -9, 9);
   const bool layers = integer(random, 0, 4) > 0;
   if (layers) {
     put_layers(scene, parts, gap, random);
@@ -63,7 +64,8 @@ NearScene near_scene(Random& random) {
     for (Eigen::Index v = 0; v < scene.x_t0.rows(); ++v) scene.x_t0.row(v) = any_vector(random, 1);
   }
   put_motion(scene, parts, power_of_ten(random, -4, 1), random);
-  const Eigen::Matrix3d turn = size * any_rotation(random);
+  Eigen::Matrix3d turn = size * Eigen::Matrix3d::Identity();  // a turn would part some that touch
+  if (!touching) turn *= any_rotation(random);
   const Eigen::RowVector3d place = any_vector(random, integer(random, 0, 3) == 0 ? 10 * size : 0);
   for (Eigen::MatrixXd* x : {&scene.x_t0, &scene.x_t1}) *x = (*x * turn).eval().rowwise() + place;
   scene.faces.resize(parts - wires, 3);

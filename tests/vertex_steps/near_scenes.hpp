@@ -13,8 +13,8 @@ struct NearScene {
   TruncateOptions options;
 };
 // Sizes of 1e-9 to 1e9, gaps of 1e-14 to 1e-1 of that, motions of 1e-4 to 10 of it: triangles and wires in
-// layers that press on each other, or anywhere. A separation in some, sized for the gap, any gap share, a
-// d_hat in some.
+// layers that press on each other, some in one plane, or anywhere. A separation in some, sized for the gap,
+// any gap share, a d_hat in some.
 NearScene near_scene(scenes::Random& random);
 
 }  // namespace onset::tests

@@ -106,6 +106,35 @@ TEST_CASE("a pair that touches stays, and is named; one within its separation ma
   CHECK((r.share[3] == 1 && r.kept == 1));
 }
 
+TEST_CASE("separation, thickness and the maximum norm are kept", "[unit]") {
+  Drop drop(1, -2, 0);
+  CollisionRules rules;
+  rules.thickness = {0, 0, 0, 0.25, 0, 0};
+  drop.mesh.set_rules(rules);
+  TruncateOptions o = with_share(0);
+  o.min_separation = 0.25;
+  for (const Norm norm : {Norm::euclidean, Norm::maximum}) {
+    o.norm = norm;
+    const TruncatedStep r = drop.step(o);
+    CHECK(std::fabs(r.share[3] - 0.25) < 1e-9);
+    CHECK(r.positions[11] > 0.5);
+  }
+}
+
+TEST_CASE("points meet each other where they are declared", "[unit]") {
+  MatrixXd x(2, 3), x_new(2, 3);
+  x << 0, 0, 0, 4, 0, 0;
+  x_new << 8, 0, 0, 4, 0, 0;
+  CollisionRules rules;
+  rules.points = {0, 1};
+  const Mesh free(2, Eigen::MatrixXi(0, 3)), mesh(2, Eigen::MatrixXi(0, 3), rules);
+  CHECK(truncate_step(free, x, x_new).kept == 1);
+  TruncateOptions o = with_share(0);
+  o.min_separation = 1;
+  const TruncatedStep r = truncate_step(mesh, x, x_new, o);
+  CHECK((std::fabs(r.share[0] - 0.375) < 1e-9 && r.positions[0] < 3 && r.outcome == Outcome::contact));
+}
+
 TEST_CASE("d-hat is twice the longest way", "[unit]") {
   TruncateOptions o;
   o.d_hat = 0.5;
@@ -161,6 +190,22 @@ TEST_CASE("threads, kernels and broad phases give the same truncated step", "[de
           CAPTURE(named.name, threads, int(kernel), int(method));
           CHECK(ask() == expected);
         }
+  }
+}
+
+TEST_CASE("in other units, and with its axes exchanged, a scene has the same truncated step", "[property]") {
+  for (const NamedScene& named : some_scenes()) {
+    const Mesh mesh = named.mesh();
+    const MatrixXd &x = named.scene.x_t0, &x_new = named.scene.x_t1;
+    const TruncatedStep r = truncate_step(mesh, x, x_new);
+    CAPTURE(named.name);
+    for (const double unit : {0x1p-60, 0x1p40}) {
+      const TruncatedStep there = truncate_step(mesh, unit * x, unit * x_new);
+      CHECK((there.share == r.share && matrix(there.positions) == unit * matrix(r.positions)));
+    }
+    const Eigen::PermutationMatrix<3> turn(Eigen::Vector3i(1, 2, 0));
+    const TruncatedStep turned = truncate_step(mesh, x * turn, x_new * turn);
+    CHECK((turned.share == r.share && matrix(turned.positions) == matrix(r.positions) * turn));
   }
 }
 

@@ -114,10 +114,12 @@ TEST_CASE("no pair meets on the way to what is stored, whatever the pace, size a
     check_pairs(near, mesh, r, unsigned(random()), tally);
   }
   std::printf(
-      "%zu scenes, %zu pairs: %zu that would have met do not, %zu crossings, %zu within their separation; %zu touch at "
+      "%zu scenes, %zu pairs: %zu that would have met do not, %zu crossings, %zu within their separation; "
+      "%zu touch at "
       "the start; %zu scenes limited, %zu answers exact; kept %.3f\n",
-      tally.scenes, tally.pairs, tally.kept_apart, tally.crossings, tally.too_close, tally.touching, tally.limited,
-      tally.asked_exactly, tally.kept / double(tally.scenes));
+      tally.scenes, tally.pairs, tally.kept_apart, tally.crossings, tally.too_close, tally.touching,
+      tally.limited, tally.asked_exactly, tally.kept / double(tally.scenes));
   CHECK(tally.crossings + tally.too_close == 0);
   CHECK(tally.kept_apart > tally.scenes);
+  CHECK(tally.touching > tally.scenes / 10);
 }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <iterator>
 #include <onset/mesh.hpp>
+#include <onset/vertex_map.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,8 +20,8 @@ namespace onset::ipc {
 //
 // The calls below take surface positions (#V x dim, model length), as vertices() returns them. dim is 3, or 2
 // where the rest positions have two columns: a mesh of edges in the plane, without faces. Const calls are
-// safe from several threads where can_collide is. Maps between the two are the host's arithmetic, in whatever
-// floating-point environment it has set.
+// safe from several threads where can_collide is. Sums with rest positions are the host's arithmetic, in
+// whatever floating-point environment it has set; a displacement map is onset::VertexMap's.
 class CollisionMesh {
  public:
   // rest_positions: #V x 3 or #V x 2, model length.
@@ -35,10 +36,9 @@ class CollisionMesh {
         full_rest_(rest_positions),
         edges_(edges.size() == 0 && faces.size() > 0 ? onset::edges(faces) : edges),
         faces_(faces),
-        map_(displacement_map),
         mesh_(rest_, edges_, faces_),
         dim_(mesh_.dimension()) {
-    check_map();
+    if (displacement_map.size() > 0) set_map(displacement_map);
     for (int v = 0; v < rest_.rows(); ++v) full_vertex_.push_back(v);
     std::vector<bool> used(full_vertex_.size());
     for (const Eigen::MatrixXi* ids : {&edges_, &faces_})
@@ -94,7 +94,7 @@ class CollisionMesh {
   std::size_t num_codim_vertices() const { return codim_vertices_.size(); }
   std::size_t ndof() const { return std::size_t(dim_) * num_vertices(); }
   std::size_t full_num_vertices() const {
-    return std::size_t(map_.size() ? full_columns() : full_rest_.rows());
+    return std::size_t(has_map_ ? map_.num_dofs() / dim_ : full_rest_.rows());
   }
   std::size_t full_ndof() const { return std::size_t(dim_) * full_num_vertices(); }
   int dim() const { return dim_; }
@@ -111,19 +111,17 @@ class CollisionMesh {
                                   std::to_string(rest_.rows()) +
                                   ", whose positions at rest are not known: use displace_vertices");
     require(full_positions, full_rest_.rows());
-    return map_.size() ? displace_vertices(full_positions - full_rest_) : chosen(full_positions);
+    return has_map_ ? displace_vertices(full_positions - full_rest_) : chosen(full_positions);
   }
   Eigen::MatrixXd displace_vertices(const Eigen::MatrixXd& full_displacements) const {
     return rest_ + map_displacements(full_displacements);
   }
   Eigen::MatrixXd map_displacements(const Eigen::MatrixXd& full_displacements) const {
     require(full_displacements, Eigen::Index(full_num_vertices()));
-    if (map_.size() == 0) return chosen(full_displacements);
-    if (map_.rows() == rest_.rows()) return map_ * full_displacements;
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const RowMajor rows = full_displacements;
-    const Eigen::VectorXd x = map_ * Eigen::Map<const Eigen::VectorXd>(rows.data(), rows.size());
-    return Eigen::Map<const RowMajor>(x.data(), rest_.rows(), dim_);
+    if (!has_map_) return chosen(full_displacements);
+    const std::vector<double> x = map_.positions(full_displacements);
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    return Eigen::Map<const Rows>(x.data(), rest_.rows(), dim_);
   }
 
   // Takes a gradient (ndof) or a Hessian (ndof x ndof) from the surface's degrees of freedom (x y z of vertex
@@ -175,38 +173,30 @@ class CollisionMesh {
       throw std::invalid_argument("got " + got + " values; the surface has " + std::to_string(ndof()) +
                                   " degrees of freedom");
   }
-  void check_map() const {
+  void set_map(const Eigen::SparseMatrix<double>& map) {
     const Eigen::Index n = rest_.rows();
-    if (map_.size() > 0 && map_.rows() != n && (map_.rows() != dim_ * n || map_.cols() % dim_ != 0))
-      throw std::invalid_argument("the displacement_map is " + shape(map_) + ": for " + std::to_string(n) +
+    if (map.rows() != n && (map.rows() != dim_ * n || map.cols() % dim_ != 0))
+      throw std::invalid_argument("the displacement_map is " + shape(map) + ": for " + std::to_string(n) +
                                   " vertices it is " + std::to_string(n) + " x #full or " +
                                   std::to_string(dim_ * n) + " x " + std::to_string(dim_) + " #full");
+    map_ = VertexMap(n, map, dim_), has_map_ = true;
   }
-  Eigen::Index full_columns() const { return map_.rows() == rest_.rows() ? map_.cols() : map_.cols() / dim_; }
   Eigen::MatrixXd chosen(const Eigen::MatrixXd& full) const {
     Eigen::MatrixXd x(rest_.rows(), dim_);
     for (Eigen::Index v = 0; v < x.rows(); ++v) x.row(v) = full.row(full_vertex_[std::size_t(v)]);
     return x;
   }
   Eigen::SparseMatrix<double> to_full() const {
-    if (map_.size() && map_.rows() != rest_.rows()) return map_;
-    std::vector<Eigen::Triplet<double>> entries;
-    const auto add = [&](Eigen::Index v, Eigen::Index full, double value) {
-      for (int a = 0; a < dim_; ++a) entries.emplace_back(int(dim_ * v + a), int(dim_ * full + a), value);
-    };
-    for (int column = 0; column < map_.outerSize(); ++column)
-      for (Eigen::SparseMatrix<double>::InnerIterator i(map_, column); i; ++i)
-        add(i.row(), i.col(), i.value());
-    if (map_.size() == 0)
-      for (std::size_t v = 0; v < full_vertex_.size(); ++v) add(Eigen::Index(v), full_vertex_[v], 1);
-    Eigen::SparseMatrix<double> m{Eigen::Index(ndof()), Eigen::Index(full_ndof())};
-    m.setFromTriplets(entries.begin(), entries.end());
-    return m;
+    if (has_map_) return map_.matrix();
+    Eigen::SparseMatrix<double> chosen{Eigen::Index(num_vertices()), Eigen::Index(full_num_vertices())};
+    for (std::size_t v = 0; v < full_vertex_.size(); ++v) chosen.insert(Eigen::Index(v), full_vertex_[v]) = 1;
+    return VertexMap(rest_.rows(), chosen, dim_).matrix();
   }
 
   Eigen::MatrixXd rest_, full_rest_;
   Eigen::MatrixXi edges_, faces_;
-  Eigen::SparseMatrix<double> map_;
+  bool has_map_ = false;
+  VertexMap map_;
   std::vector<int> full_vertex_, codim_vertices_;
   onset::Mesh mesh_;
   int dim_;

@@ -21,6 +21,7 @@
 #include <onset/compat/collision_mesh.hpp>
 #include <onset/intersections.hpp>
 #include <onset/line_search.hpp>
+#include <onset/safe_distance.hpp>
 #include <onset/step_size.hpp>
 #include <stdexcept>
 #include <string>
@@ -156,6 +157,29 @@ class Candidates {
     const double gap_share = in_environment([&] { return 1 - ccd.conservative_rescaling; });
     return onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(mesh), vertices_t0, vertices_t1,
                                                   options_of(min_distance, ccd), gap_share)
+        .step;
+  }
+  // Computes a step that is free of contact as a whole, not for the pairs listed alone, from those that are
+  // within dhat (model length, > 0) of their distance at vertices_t0 and a bound for all others. Every pair
+  // keeps its share of its gap, of dhat where it is farther apart, so that the next step is not 0. Where
+  // can_collide is set, the bound is not used: the step is that of all pairs that may collide.
+  double compute_cfl_stepsize(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,
+                              const Eigen::MatrixXd& vertices_t1, double dhat, double min_distance = 0,
+                              const BroadPhase* broad_phase = nullptr,
+                              const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
+    mesh.require_surface(vertices_t0), mesh.require_surface(vertices_t1);
+    if (mesh.can_collide) {
+      if (!vertices_t0.allFinite() || !vertices_t1.allFinite()) return 0;
+      Candidates all;
+      all.build(mesh, vertices_t0, vertices_t1, in_environment([&] { return min_distance / 2; }),
+                broad_phase);
+      return all.compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1, min_distance, ccd);
+    }
+    const Options options = options_of(min_distance, ccd);
+    const ClosePairs close = close_pairs(mesh.onset_mesh(), vertices_t0, dhat, options);
+    if (close.outcome != Outcome::free) return 0;
+    return onset::compute_cfl_stepsize(mesh.onset_mesh(), vertices_t0, vertices_t1, close, options,
+                                       in_environment([&] { return 1 - ccd.conservative_rescaling; }))
         .step;
   }
   bool is_step_collision_free(const CollisionMesh& mesh, const Eigen::MatrixXd& vertices_t0,

@@ -74,6 +74,7 @@ void ask_adapter(const Mesh&, const Subject& s, const Options&, Answer& a) {
     add_candidates(candidates, a);
     a.add(candidates.compute_collision_free_stepsize(mesh, x_t0, x_t1),
           candidates.is_step_collision_free(mesh, x_t0, x_t1));
+    a.add(candidates.compute_cfl_stepsize(mesh, x_t0, x_t1, s.d_hat));
     candidates.clear();
   }
 }

@@ -137,6 +137,8 @@ class Answer {
     ended(r);
     add(r.positions, r.displacements, r.share, r.kept, r.pairs, r.limited_by, r.limiting);
   }
+  void add_one(const Matches& m) { add(m.to_of_from, m.from_of_to, m.count); }
+  void add_one(const TetrahedraSurface& s) { add(s.faces, s.edges, s.full_vertices, s.surface_vertices); }
   void add_one(const Constraints& c) { add(c.row, c.dof, c.value, c.bound); }
 
   template <class Result>

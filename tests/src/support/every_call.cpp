@@ -115,6 +115,35 @@ void ask_constraints(const Mesh& mesh, const Subject& s, const Options&, Answer&
     a.add(c, c.rows());
 }
 
+void ask_match(const Mesh&, const Subject& s, const Options&, Answer& a) {
+  std::vector<Pair> some(s.set.contacts.begin(), s.set.contacts.end());
+  if (!some.empty()) some.erase(some.begin());
+  a.add(match(s.set, s.set), match(s.close, s.close), match(some, {some.rbegin(), some.rend()}));
+}
+
+// Each vertex is between two nodes, the dofs of which are its coordinates and those of the next.
+void ask_vertex_map(const Mesh& mesh, const Subject& s, const Options&, Answer& a) {
+  const int n = int(mesh.num_vertices());
+  Eigen::SparseMatrix<double> weights(n, n);
+  for (int v = 0; v < n; ++v) weights.insert(v, v) = 0.7, weights.insert(v, (v + 1) % n) = 0.3;
+  const VertexMap map(n, weights);
+  a.add(map.num_dofs(), map.positions(s.scene.x_t0), map.rounding(s.scene.x_t0, s.scene.x_t1));
+  a.add(assemble_constraints(s.set, 0, map), map.constraints(assemble_constraints(s.set)));
+  a.add(map.to_dofs(Eigen::VectorXd(Eigen::VectorXd::Constant(3 * n, 0.1))));
+  a.add(Eigen::MatrixXd(map.to_dofs(map.matrix())));
+}
+
+// A tetrahedron on each face, all with one tip.
+void ask_tetrahedra(const Mesh& mesh, const Subject& s, const Options&, Answer& a) {
+  const Eigen::Index n = s.scene.x_t0.rows();
+  Eigen::MatrixXi T(mesh.num_faces(), 4);
+  T << s.scene.faces, Eigen::VectorXi::Constant(T.rows(), int(n));
+  Eigen::MatrixXd x(n + 1, 3);
+  x << s.scene.x_t0, Eigen::RowVector3d(0.25, 7, 0.5);
+  const TetrahedraSurface surface = surface_of_tetrahedra(T, x);
+  a.add(surface, surface_of_tetrahedra(T, n + 1), surface.mesh().num_edges());
+}
+
 void ask_intersections(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
   const Intersections found = intersections(mesh, s.scene.x_t1, o);
   a.add(found, found.size(), found.empty(), found.count(IntersectionKind::touching));
@@ -258,6 +287,9 @@ const std::vector<Call>& every_call() {
       {"compute_cfl_stepsize", true, ask_cfl},
       {"truncate_step", true, ask_truncate},
       {"assemble_constraints", false, ask_constraints},
+      {"match", false, ask_match},
+      {"VertexMap", false, ask_vertex_map},
+      {"surface_of_tetrahedra", false, ask_tetrahedra},
       {"intersections", true, ask_intersections},
       {"has_intersections", true, ask_has_intersections},
       {"check, duplicate_vertices", true, ask_check},
