@@ -139,6 +139,7 @@ void finish_mesh(MeshData& mesh) {
     (mesh.is_static[v] ? filter->static_ids : filter->free_ids).push_back(int(v));
   mesh.static_cache = filter->has_static() ? std::make_shared<StaticCache>() : nullptr;
   mesh.broad_phases = std::make_shared<BroadPhasePool>();
+  mesh.turning_scenes = std::make_shared<TurningScenePool>();
   mesh.filter = std::move(filter);
 }
 

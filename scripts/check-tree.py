@@ -5,7 +5,7 @@
 
 - Every folder with sources has its sentence in the table of folders, and every folder of that table is there. So is every file that a page
   names by its path from the root.
-- No folder holds more than 18 files, beside its CMakeLists.txt. No C++ file is longer than 400 lines.
+- No folder holds more than 24 files, beside its CMakeLists.txt. No C++ file is longer than 400 lines.
 - Every include goes down or stays in its room, as the table of who may include whom says. TBB and intrinsics have one place each.
 - Words that have been replaced do not come back.
 """
@@ -18,7 +18,7 @@ TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", 
 CPP = {".cpp", ".hpp", ".inl"}
 SOURCES = CPP | {".py", ".sh", ".cmake", ".txt", ".in"}
 LIBRARY = ("include/", "base/", "scene/", "broadphase/", "narrowphase/", "src/")
-MOST_FILES, MOST_LINES = 18, 400
+MOST_FILES, MOST_LINES = 24, 400
 
 # What only one place of the library may include.
 ONE_PLACE = {r"<tbb/": ("base/threads/parallel_tbb.cpp",), r"<\w*intrin\.h>": ("base/simd/",)}

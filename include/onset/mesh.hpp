@@ -9,6 +9,7 @@
 #include <onset/filter_counts.hpp>
 #include <onset/result.hpp>
 #include <onset/views.hpp>
+#include <utility>
 #include <vector>
 
 namespace onset {
@@ -100,6 +101,8 @@ class ONSET_API Mesh {
   void release_memory() const noexcept;
 
   const MeshData& data() const noexcept { return *data_; }
+  // Of what the library has made.
+  explicit Mesh(std::shared_ptr<const MeshData> data) noexcept : data_(std::move(data)) {}
 
  private:
   template <class F>

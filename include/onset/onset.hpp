@@ -14,4 +14,5 @@
 #include <onset/result.hpp>
 #include <onset/safe_distance.hpp>
 #include <onset/step_size.hpp>
+#include <onset/trajectory.hpp>
 #include <onset/views.hpp>
