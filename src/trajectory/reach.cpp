@@ -40,9 +40,8 @@ std::vector<Box> boxes_of(const TurningScene& scene, const Motion& motion) {
 
 bool is_mixed(const TurningScene& scene, Primitive kind, int id) {
   const std::array<int, 3> v = primitive_vertices(*scene.pieces, kind, id);
-  return std::any_of(v.begin(), v.end(), [&](int w) {
-    return scene.body[std::size_t(w)] != scene.body[std::size_t(v[0])];
-  });
+  return std::any_of(v.begin(), v.end(),
+                     [&](int w) { return scene.body[std::size_t(w)] != scene.body[std::size_t(v[0])]; });
 }
 
 }  // namespace

@@ -45,7 +45,9 @@ TEST_CASE("a gear that turns against one that stands is stopped, and linear path
   const ActiveSet set = construct_active_set(mesh, g.trajectory);
   CHECK(set.earliest()->toi == r.toi);
   // The time, by samples of all pairs that the set has.
-  TurningPaths paths{g.scene.x_t0, g.scene.x_t0, std::vector<int>(std::size_t(g.scene.x_t0.rows()), -1),
+  TurningPaths paths{g.scene.x_t0,
+                     g.scene.x_t0,
+                     std::vector<int>(std::size_t(g.scene.x_t0.rows()), -1),
                      {{{0, 0, kPi}, {0, 0, 0}, {0, 0, 0}}}};
   std::fill_n(paths.body.begin(), g.gear_vertices, 0);
   Long first = INFINITY;
