@@ -114,7 +114,7 @@ class ONSET_API RigidTrajectory final : public Trajectory {
 //
 // Example:
 //   onset::RigidTrajectory motion(x_t0, x_t1);
-//   motion.add_body(0, 500, {0, 0, 3}, {0, 0, 0}, {0, 0, 1});
+//   motion.add_body(0, x_t0.rows(), {0, 0, 3}, {0, 0, 0}, {0, 0, 1});
 //   x = motion.at(onset::compute_collision_free_stepsize(mesh, motion).step);
 //
 // Source: as for Trajectory.
