@@ -139,6 +139,7 @@ const FilterCounts& Mesh::filter_counts() const noexcept { return data_->filter-
 void Mesh::release_memory() const noexcept {
   data_->broad_phases->clear();
   if (data_->rest) data_->rest->limits.clear();
+  if (data_->turning_scenes) data_->turning_scenes->clear();
   if (!data_->static_cache) return;
   data_->static_cache->motion.clear();
   data_->static_cache->trees.clear();

@@ -81,6 +81,7 @@ struct MeshData {
   std::shared_ptr<StaticCache> static_cache;
   // Not null after finish_mesh.
   std::shared_ptr<BroadPhasePool> broad_phases;
+  std::shared_ptr<TurningScenePool> turning_scenes;
 };
 
 // Returns the largest id of a body + 1.

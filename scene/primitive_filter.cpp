@@ -145,6 +145,7 @@ void finish_mesh(MeshData& mesh) {
   mesh.static_cache = filter->has_static() ? std::make_shared<StaticCache>() : nullptr;
   mesh.mesh_planes = make_planes(mesh);
   mesh.broad_phases = std::make_shared<BroadPhasePool>();
+  mesh.turning_scenes = std::make_shared<TurningScenePool>();
   mesh.filter = std::move(filter);
 }
 

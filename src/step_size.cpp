@@ -7,7 +7,6 @@
 #include "base/float_environment.hpp"
 #include "base/parallel.hpp"
 #include "onset/candidates.hpp"
-#include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
 #include "scene/planes.hpp"
 #include "scene/primitive_filter.hpp"
@@ -20,19 +19,8 @@ namespace {
 
 StepResult step_in_arena(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                          const Options& options, Collect collect) {
-  StepResult r;
   Budget budget(options);
-  const StepSetup::Use use =
-      collect == Collect::first ? StepSetup::Use::stored_step : StepSetup::Use::contacts;
-  StepSetup setup(mesh, x_t0, x_t1, options, use, r.stats, budget);
-  r.outcome = setup.motion.status;
-  r.vertex = setup.motion.bad_vertex;
-  if (r.outcome != Outcome::free) return r;
-  const TraversalResult traversal = find_contacts(mesh, setup, options, collect, budget, r.stats);
-  limit_step(mesh, traversal, budget, 1, 1, r);
-  r.rounding = reported_rounding(setup.rounding);
-  r.stats.seconds_total = setup.clock.seconds();
-  return r;
+  return step_of_motion(mesh, x_t0, x_t1, options, collect, budget);
 }
 
 [[noreturn]] void reject(PairKind kind, std::size_t row, const std::string& why) {

@@ -112,6 +112,8 @@ class ONSET_API Mesh {
   void release_memory() const noexcept;
 
   const MeshData& data() const noexcept { return *data_; }
+  // Of what the library has made.
+  explicit Mesh(std::shared_ptr<const MeshData> data) noexcept : data_(std::move(data)) {}
 
  private:
   explicit Mesh(std::shared_ptr<const MeshData> data) : data_(std::move(data)) {}

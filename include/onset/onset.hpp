@@ -16,6 +16,7 @@
 #include <onset/safe_distance.hpp>
 #include <onset/step_size.hpp>
 #include <onset/tetrahedra.hpp>
+#include <onset/trajectory.hpp>
 #include <onset/truncate_step.hpp>
 #include <onset/vertex_map.hpp>
 #include <onset/views.hpp>

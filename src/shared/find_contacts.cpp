@@ -147,4 +147,20 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   return traversal;
 }
 
+StepResult step_of_motion(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                          const Options& options, Collect collect, Budget& budget) {
+  StepResult r;
+  const StepSetup::Use use =
+      collect == Collect::first ? StepSetup::Use::stored_step : StepSetup::Use::contacts;
+  StepSetup setup(mesh, x_t0, x_t1, options, use, r.stats, budget);
+  r.outcome = setup.motion.status;
+  r.vertex = setup.motion.bad_vertex;
+  if (r.outcome != Outcome::free) return r;
+  const TraversalResult traversal = find_contacts(mesh, setup, options, collect, budget, r.stats);
+  limit_step(mesh, traversal, budget, 1, 1, r);
+  r.rounding = reported_rounding(setup.rounding);
+  r.stats.seconds_total = setup.clock.seconds();
+  return r;
+}
+
 }  // namespace onset

@@ -1,6 +1,7 @@
 // The contacts of a step, all of them or those that limit it.
 #pragma once
 
+#include "onset/step_size.hpp"
 #include "src/shared/pair_traversal.hpp"
 #include "src/shared/step_setup.hpp"
 
@@ -13,5 +14,9 @@ std::size_t most_contacts(const Options& options);
 // `stats`. It may shrink the boxes of `setup`. Without a broad phase there are no candidates.
 TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect,
                               Budget& budget, Stats& stats);
+
+// Returns the step of a motion; with Collect::any it says no more than whether there is a contact.
+StepResult step_of_motion(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
+                          const Options& options, Collect collect, Budget& budget);
 
 }  // namespace onset

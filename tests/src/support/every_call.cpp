@@ -35,6 +35,32 @@ void ask_free(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
   a.add(is_step_collision_free(mesh, s.scene.x_t0, s.scene.x_t1, o));
 }
 
+// The first component turns, unless it is static, and all others go where they would.
+RigidTrajectory turning(const Mesh& mesh, const Subject& s) {
+  RigidTrajectory trajectory(s.scene.x_t0, s.scene.x_t1);
+  const std::vector<int> parts = mesh.components();
+  std::vector<int> first;
+  for (std::size_t v = 0; v < parts.size(); ++v)
+    if (parts[v] == 0) first.push_back(int(v));
+  trajectory.add_body(first, {0.3, 0.9, -0.2}, {0.05, 0, 0.1}, {0.5, 0.25, 0});
+  return trajectory;
+}
+void ask_turning_step(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
+  const RigidTrajectory trajectory = turning(mesh, s);
+  const int v = 0;
+  double x[3], strays;
+  trajectory.positions(0.3, &v, 1, x);
+  trajectory.straying(0.2, 0.3, &v, 1, &strays);
+  a.add(x[0], x[1], x[2], strays, trajectory.at(0.3)(0, 0), trajectory.num_vertices(), trajectory.body(0));
+  a.add(compute_collision_free_stepsize(mesh, trajectory, o));
+}
+void ask_turning_free(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
+  a.add(is_step_collision_free(mesh, turning(mesh, s), o));
+}
+void ask_turning_set(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
+  a.add(construct_active_set(mesh, turning(mesh, s), o));
+}
+
 void ask_active_set(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
   const ActiveSet set = construct_active_set(mesh, s.scene.x_t0, s.scene.x_t1, o);
   a.add(set, set.size(), set.empty());
@@ -274,6 +300,9 @@ const std::vector<Call>& every_call() {
       {"compute_collision_free_stepsize", true, ask_step},
       {"compute_collision_free_stepsize of candidates", true, ask_listed_step},
       {"is_step_collision_free", true, ask_free},
+      {"compute_collision_free_stepsize of a trajectory", true, ask_turning_step},
+      {"is_step_collision_free of a trajectory", true, ask_turning_free},
+      {"construct_active_set of a trajectory", true, ask_turning_set},
       {"construct_active_set", true, ask_active_set},
       {"construct_active_set, exact", true, ask_exact_set},
       {"construct_active_set, window and memory limit", true, ask_window},

@@ -1,0 +1,64 @@
+// The motion of a piece of time as chords, with how far each vertex strays from its own as thickness.
+#pragma once
+
+#include <vector>
+
+#include "onset/result.hpp"
+#include "onset/trajectory.hpp"
+#include "scene/motion/motion.hpp"
+#include "src/trajectory/crossing.hpp"
+#include "src/trajectory/turning_scene.hpp"
+
+namespace onset {
+
+// All of it is of the vertices that `set` was given last.
+class Pieces {
+ public:
+  // x0, x1: X(0) and X(1), 3 #V, finite; all must outlive it.
+  Pieces(TurningScene& scene, const Trajectory& trajectory, const std::vector<double>& x0,
+         const std::vector<double>& x1);
+
+  // Makes the chords of [t0, t1] and the thickness of scene.pieces. Returns what is wrong with a position, or
+  // with a bound; bad_vertex() is the first. Throws std::invalid_argument for a bound below 0.
+  //
+  // Pairs whose chords keep their separation and both thicknesses keep their separation, truly and as stored:
+  // a point of a primitive strays no farther than the vertex that strays most. Where vertices have a
+  // thickness of their own all get the largest bound, since the thickest need not be the one that strays.
+  Outcome set(double t0, double t1, const std::vector<int>& vertices);
+  int bad_vertex() const { return bad_vertex_; }
+
+  const Motion& motion() const { return motion_; }
+  double t0() const { return t0_; }
+  double t1() const { return t1_; }
+  // Returns a time that is not later than t0 + share (t1 - t0), and before it unless that is t0.
+  double time_at(double share) const;
+  // Whether it may be cut in two.
+  bool divisible() const;
+  double middle() const { return t0_ + 0.5 * (t1_ - t0_); }
+
+  // How much separation the pair has been given, rounded up.
+  double added(const std::array<int, 4>& vertices, PairKind kind) const;
+  // How much of that is rounding, and would be in any piece that ends here.
+  double rounding(const std::array<int, 4>& vertices, PairKind kind) const;
+  // Contains a vertex, truly, at all times of [t0, t1]; the vertex and the times may be any.
+  VertexBox box(int v, double t0, double t1) const;
+  // Whether chords follow the paths so badly that boxes around them are no good: more than 1/32 of the way,
+  // about a quarter of a radian, and more than `enough`.
+  bool is_coarse(const std::vector<int>& vertices, double enough) const;
+  double largest_bound() const { return largest_; }
+
+ private:
+  void put_linear(int v, double t, double* x) const;
+  void fill(double t0, double t1, const int* vertices, std::size_t count);
+  double linear_bound(int v) const;
+
+  TurningScene& scene_;
+  const Trajectory& trajectory_;
+  const std::vector<double>&x0_, &x1_;
+  Motion motion_;
+  std::vector<double> bound_;
+  double t0_ = 0, t1_ = 0, largest_ = 0;
+  int bad_vertex_ = -1;
+};
+
+}  // namespace onset
