@@ -116,7 +116,6 @@ class ONSET_API Mesh {
   explicit Mesh(std::shared_ptr<const MeshData> data) noexcept : data_(std::move(data)) {}
 
  private:
-  explicit Mesh(std::shared_ptr<const MeshData> data) : data_(std::move(data)) {}
   template <class F>
   void change(F&& f);
   std::shared_ptr<const MeshData> data_;

@@ -22,17 +22,29 @@ bool before_in_step(const Contact& x, const Contact& y) {
   return order_of(x.kind, {x.a, x.b}) < order_of(y.kind, {y.a, y.b});
 }
 
+void check_rules(const MeshData& mesh) {
+  const auto reject = [](const char* rule) {
+    throw std::invalid_argument(std::string(rule) + " are not supported where a vertex turns");
+  };
+  if (!mesh.planes.empty()) reject("planes");
+  if (!mesh.body_separations.empty()) reject("body_separations");
+  if (mesh.rest) reject("rest_positions");
+}
+
 // What a call on a trajectory works with.
 class Call {
  public:
   Call(const Mesh& mesh, const Trajectory& trajectory, const Options& options, Budget& budget)
       : mesh_(mesh), trajectory_(trajectory), options_(options), budget_(budget) {
     std::vector<int> bodies = bodies_of(mesh, trajectory);
+    if (mesh.dimension() == 2)
+      throw std::invalid_argument("the mesh is in the plane: trajectories have three coordinates");
     std::vector<int> all(bodies.size());
     for (std::size_t v = 0; v < all.size(); ++v) all[v] = int(v);
     turns_ = std::any_of(bodies.begin(), bodies.end(), [](int b) { return b != Trajectory::kLinear; });
     if (turns_ && options.touching_may_pass_through)
       throw std::invalid_argument("touching_may_pass_through is not supported where a vertex turns");
+    if (turns_) check_rules(mesh.data());
     for (std::vector<double>* x : {&x0_, &x1_}) {
       x->resize(3 * all.size());
       trajectory.positions(x == &x0_ ? 0 : 1, all.data(), all.size(), x->data());
