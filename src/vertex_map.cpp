@@ -66,9 +66,8 @@ std::vector<double> VertexMap::transposed(const std::vector<double>& gradient) c
   check_count(gradient.size(), 3 * vertices_, "coordinates of the surface");
   std::vector<double> g(std::size_t(dofs_), 0.0);
   for (std::ptrdiff_t row = 0; row < 3 * vertices_; ++row)
-    each_weight(row, [&](std::ptrdiff_t dof, double w) {
-      g[std::size_t(dof)] += w * gradient[std::size_t(row)];
-    });
+    each_weight(row,
+                [&](std::ptrdiff_t dof, double w) { g[std::size_t(dof)] += w * gradient[std::size_t(row)]; });
   return g;
 }
 
@@ -116,8 +115,8 @@ Constraints VertexMap::constraints(const Constraints& surface) const {
     const int of = surface.dof[k];
     if (of < 0 || of >= 3 * vertices_)
       throw std::invalid_argument("entry " + std::to_string(k) + " of the constraints is of dof " +
-                                  std::to_string(of) + "; the surface has " +
-                                  std::to_string(3 * vertices_) + " coordinates");
+                                  std::to_string(of) + "; the surface has " + std::to_string(3 * vertices_) +
+                                  " coordinates");
     each_weight(of, [&](std::ptrdiff_t dof, double w) {
       terms.push_back({surface.row[k], int(dof), terms.size(), surface.value[k] * w});
     });
