@@ -15,9 +15,7 @@ struct Place {
   std::tuple<int, int, int> key;
   int row;
 };
-bool before(const Place& x, const Place& y) {
-  return x.key != y.key ? x.key < y.key : x.row < y.row;
-}
+bool before(const Place& x, const Place& y) { return x.key != y.key ? x.key < y.key : x.row < y.row; }
 
 template <class Pairs>
 std::vector<Place> in_order(const char* name, const Pairs& pairs) {
@@ -51,9 +49,7 @@ Matches match_lists(const Pairs& from, const Pairs& to) {
 
 }  // namespace
 
-Matches match(const ActiveSet& from, const ActiveSet& to) {
-  return match_lists(from.contacts, to.contacts);
-}
+Matches match(const ActiveSet& from, const ActiveSet& to) { return match_lists(from.contacts, to.contacts); }
 Matches match(const ClosePairs& from, const ClosePairs& to) { return match_lists(from.pairs, to.pairs); }
 Matches match(const std::vector<Pair>& from, const std::vector<Pair>& to) { return match_lists(from, to); }
 

@@ -74,8 +74,7 @@ std::array<int, 3> face_of(const Tetrahedron& t, int opposite) {
 std::vector<std::uint8_t> single_faces(const std::vector<Tetrahedron>& all) {
   std::vector<Sorted<3>> list;
   list.reserve(4 * all.size());
-  for (std::size_t i = 0; i < 4 * all.size(); ++i)
-    list.push_back(sorted(face_of(all[i / 4], int(i % 4)), i));
+  for (std::size_t i = 0; i < 4 * all.size(); ++i) list.push_back(sorted(face_of(all[i / 4], int(i % 4)), i));
   std::sort(list.begin(), list.end());
   std::vector<std::uint8_t> single(all.size());
   for (std::size_t i = 0, end; i < list.size(); i = end) {
@@ -86,8 +85,7 @@ std::vector<std::uint8_t> single_faces(const std::vector<Tetrahedron>& all) {
                  "its face " + std::to_string(v[0]) + " " + std::to_string(v[1]) + " " +
                      std::to_string(v[2]) + " is one of rows " + std::to_string(list[i].row / 4) + " and " +
                      std::to_string(list[i + 1].row / 4) + " already");
-    if (end - i == 1)
-      single[std::size_t(list[i].row / 4)] |= std::uint8_t(1 << (list[i].row % 4));
+    if (end - i == 1) single[std::size_t(list[i].row / 4)] |= std::uint8_t(1 << (list[i].row % 4));
   }
   return single;
 }
@@ -102,8 +100,7 @@ void renumber(std::ptrdiff_t vertices, TetrahedraSurface& s) {
   Eigen::MatrixXi F(s.faces.size(), 3);
   for (std::size_t f = 0; f < s.faces.size(); ++f)
     for (std::size_t c = 0; c < 3; ++c)
-      F(Eigen::Index(f), Eigen::Index(c)) = s.faces[f][c] =
-          s.surface_vertices[std::size_t(s.faces[f][c])];
+      F(Eigen::Index(f), Eigen::Index(c)) = s.faces[f][c] = s.surface_vertices[std::size_t(s.faces[f][c])];
   s.edges = edge_list(F);
 }
 

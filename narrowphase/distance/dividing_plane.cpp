@@ -113,7 +113,8 @@ Room room_of(const Extent& e, double separation, double gap_share) {
   Room r;
   r.apart = e.first > e.second;
   r.gap = (e.first - e.second) - separation;
-  r.room = r.gap > 0 ? r.gap * (1 - gap_share) * kLess : 0;
+  // Less what place() has to show of the separation.
+  r.room = r.gap > 0 ? std::max(0.0, r.gap * (1 - gap_share) * kLess - 0x1p-47 * separation) : 0;
   r.wanted = (e.first - e.lowest) + e.first_rounding + (e.highest - e.second) + e.second_rounding;
   r.free = r.gap > 0 && r.wanted * kMore <= r.room;
   return r;

@@ -1,7 +1,6 @@
 // Which rows of two lists are one pair: against a search through all of them.
-#include <onset/match.hpp>
-
 #include <algorithm>
+#include <onset/match.hpp>
 
 #include "tests/catch.hpp"
 #include "tests/scenes/random.hpp"

@@ -1,8 +1,7 @@
 // The surface of tetrahedra: closed, outward, and with the vertices that it uses.
-#include <onset/tetrahedra.hpp>
-
 #include <Eigen/Geometry>
 #include <map>
+#include <onset/tetrahedra.hpp>
 #include <random>
 
 #include "tests/catch.hpp"
@@ -27,7 +26,8 @@ struct Block {
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
         for (int k = 0; k < n; ++k)
-          for (const auto& path : {std::array<int, 3>{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}}) {
+          for (const auto& path :
+               {std::array<int, 3>{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}}) {
             int at[3] = {i, j, k}, corner[4];
             for (int step = 0; step < 4; ++step) {
               corner[step] = id(at[0], at[1], at[2]);

@@ -72,7 +72,8 @@ TEST_CASE("positions are the sums of weighted dofs, within their bound", "[oracl
       CHECK(abs(exact - Rational(x[r])) <= size * Rational(4.1 * 0x1p-53));
     }
     if (by_vertex) {
-      const MatrixXd rows = Eigen::Map<const Eigen::Matrix<double, -1, 3, Eigen::RowMajor>>(q.data(), nodes, 3);
+      const MatrixXd rows =
+          Eigen::Map<const Eigen::Matrix<double, -1, 3, Eigen::RowMajor>>(q.data(), nodes, 3);
       CHECK(vector(map.positions(rows)) == x);
     }
   }
@@ -147,7 +148,8 @@ TEST_CASE("the adapter's displacement map is the same map", "[unit]") {
     const VectorXd flat = Eigen::Map<const VectorXd>(rows.data(), rows.size());
     const MatrixXd surface = mesh.map_displacements(u);
     const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> there = surface;
-    CHECK(Eigen::Map<const VectorXd>(there.data(), there.size()) == vector(VertexMap(n, weights).positions(flat)));
+    CHECK(Eigen::Map<const VectorXd>(there.data(), there.size()) ==
+          vector(VertexMap(n, weights).positions(flat)));
     if (by_vertex) CHECK(surface == MatrixXd(weights * u));
     CHECK(mesh.full_num_vertices() == std::size_t(nodes));
   }
@@ -156,7 +158,8 @@ TEST_CASE("the adapter's displacement map is the same map", "[unit]") {
 TEST_CASE("maps of another shape, and values of another number, are refused", "[unit]") {
   scenes::Random random(9);
   SparseMatrix<double> weights = random_map(random, 4, 5);
-  CHECK_THROWS_WITH(VertexMap(3, weights), Catch::Contains("4 x 5: for 3 vertices it is 3 x #nodes or 9 x #dof"));
+  CHECK_THROWS_WITH(VertexMap(3, weights),
+                    Catch::Contains("4 x 5: for 3 vertices it is 3 x #nodes or 9 x #dof"));
   CHECK_THROWS_AS(VertexMap(-1, weights), std::invalid_argument);
   const VertexMap map(4, weights);
   CHECK_THROWS_WITH(map.positions(VectorXd(14)), Catch::Contains("got 14 values; the map has 15 dofs"));
