@@ -131,9 +131,9 @@ void apply_planes(const std::vector<Plane>& planes, MeshData& data) {
 }
 
 void apply_pairs(const CollisionRules& rules, MeshData& data) {
-  const std::vector<PairKind> kinds = data.dimension == 2
-                                          ? std::vector{PairKind::vertex_edge, PairKind::vertex_plane}
-                                          : std::vector{PairKind::vertex_face, PairKind::edge_edge, PairKind::vertex_plane};
+  const std::vector<PairKind> kinds =
+      data.dimension == 2 ? std::vector{PairKind::vertex_edge, PairKind::vertex_plane}
+                          : std::vector{PairKind::vertex_face, PairKind::edge_edge, PairKind::vertex_plane};
   NamedPairs pairs("excluded_pairs", data, kinds);
   for (const Pair& p : rules.excluded_pairs) pairs.add(p.kind, p.a, p.b);
   for (const PairKind kind : kinds) data.excluded_pairs[std::size_t(kind)] = pairs.of(kind);
@@ -183,7 +183,8 @@ void apply_rest(const CollisionRules& rules, MeshData& data) {
   if (x.rows() != data.num_vertices || x.cols() != data.dimension)
     throw std::invalid_argument("rest_positions has " + std::to_string(x.rows()) + " rows of " +
                                 std::to_string(x.cols()) + " coordinates for " +
-                                std::to_string(data.num_vertices) + " vertices, not rows of " + std::to_string(data.dimension));
+                                std::to_string(data.num_vertices) + " vertices, not rows of " +
+                                std::to_string(data.dimension));
   auto rest = std::make_shared<RestShape>();
   rest->share = rules.rest_share;
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)

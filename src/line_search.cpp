@@ -179,11 +179,10 @@ ClosePairs LineSearch::close_pairs(double step) const {
     const Clock clock;
     const std::vector<double> x = h.at(step);
     Budget budget(h.options);
-    auto close =
-        find_close(h.source(h.near),
-                   {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options, h.setup->motion.axes,
-                    h.setup->rest.get()},
-                   budget);
+    auto close = find_close(
+        h.source(h.near),
+        {h.mesh, x.data(), h.options.d_hat, h.rounding, h.options, h.setup->motion.axes, h.setup->rest.get()},
+        budget);
     r.pairs = std::move(close.found);
     r.outcome = close.too_many ? Outcome::out_of_memory : budget.outcome();
     r.seconds = clock.seconds();

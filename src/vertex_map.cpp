@@ -30,7 +30,8 @@ VertexMap::VertexMap(std::ptrdiff_t vertices, int dimension, std::ptrdiff_t rows
   if (dimension != 2 && dimension != 3)
     throw std::invalid_argument("the map has " + std::to_string(dimension) + " dimensions, neither 2 nor 3");
   constexpr std::ptrdiff_t kMost = std::numeric_limits<int>::max() / 3;
-  if (vertices < 0 || vertices > kMost || columns > kMost || (rows != vertices && rows != dimension * vertices))
+  if (vertices < 0 || vertices > kMost || columns > kMost ||
+      (rows != vertices && rows != dimension * vertices))
     throw std::invalid_argument("the map is " + shape(rows, columns) + ": for " + std::to_string(vertices) +
                                 " vertices it is " + std::to_string(vertices) + " x #nodes or " +
                                 std::to_string(dimension * vertices) + " x #dof");
@@ -68,9 +69,8 @@ std::vector<double> VertexMap::transposed(const std::vector<double>& gradient) c
   check_count(gradient.size(), dimension_ * vertices_, "coordinates of the surface");
   std::vector<double> g(std::size_t(dofs_), 0.0);
   for (std::ptrdiff_t row = 0; row < dimension_ * vertices_; ++row)
-    each_weight(row, [&](std::ptrdiff_t dof, double w) {
-      g[std::size_t(dof)] += w * gradient[std::size_t(row)];
-    });
+    each_weight(row,
+                [&](std::ptrdiff_t dof, double w) { g[std::size_t(dof)] += w * gradient[std::size_t(row)]; });
   return g;
 }
 

@@ -11,16 +11,16 @@
 
 namespace onset {
 
-// In this order wherever pairs are put in order. vertex_edge: of a mesh in the plane (Mesh::dimension() of 2), which has
-// no vertex_face and edge_edge.
+// In this order wherever pairs are put in order. vertex_edge: of a mesh in the plane (Mesh::dimension() of
+// 2), which has no vertex_face and edge_edge.
 enum class PairKind : std::uint8_t { vertex_face, edge_edge, vertex_edge, vertex_plane };
 ONSET_API const char* to_string(PairKind kind) noexcept;
 
 // One pair of primitives.
 struct Pair {
   PairKind kind = PairKind::vertex_face;
-  // vertex_face, vertex_edge: a is the vertex, b the face or edge. edge_edge: edges, a < b. vertex_plane: a is
-  // the vertex, b the row of CollisionRules::planes.
+  // vertex_face, vertex_edge: a is the vertex, b the face or edge. edge_edge: edges, a < b. vertex_plane: a
+  // is the vertex, b the row of CollisionRules::planes.
   int a = -1, b = -1;
   // vertex_face: v, f0, f1, f2. edge_edge: a0, a1, b0, b1; a point (CollisionRules::points) has the same
   // twice. vertex_edge: v, e0, e1, e1. vertex_plane: v, -1, -1, -1.

@@ -84,8 +84,7 @@ class ONSET_API VertexMap {
     Eigen::SparseMatrix<double> m(Eigen::Index(dimension_ * vertices_), Eigen::Index(dofs_));
     std::vector<Eigen::Triplet<double>> entries;
     for (std::ptrdiff_t row = 0; row < dimension_ * vertices_; ++row)
-      each_weight(row,
-                  [&](std::ptrdiff_t dof, double w) { entries.emplace_back(int(row), int(dof), w); });
+      each_weight(row, [&](std::ptrdiff_t dof, double w) { entries.emplace_back(int(row), int(dof), w); });
     m.setFromTriplets(entries.begin(), entries.end());
     return m;
   }

@@ -118,7 +118,8 @@ std::int64_t count_within_rings(const MeshData& mesh, PairKind kind,
   const EdgeGraph graph(mesh);
   const bool same = kind == PairKind::edge_edge;
   const Around around(mesh, second_primitive(kind));
-  const std::size_t others = second_primitive(kind) == Primitive::face ? mesh.faces.size() : proper_edges(mesh);
+  const std::size_t others =
+      second_primitive(kind) == Primitive::face ? mesh.faces.size() : proper_edges(mesh);
   std::atomic<std::int64_t> total{0};
   const std::size_t firsts = same ? others : std::size_t(mesh.num_vertices);
   const auto count = [&](std::size_t from, std::size_t to) {

@@ -30,7 +30,8 @@ void check_reach(double d_hat, bool zero_allowed) {
 
 }  // namespace
 
-double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest, const Pair& pair) {
+double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest,
+                            const Pair& pair) {
   const int* v = pair.vertices.data();
   if (has_pair_separations(mesh.data()) && pair.kind != PairKind::vertex_plane) {
     const double own = separation_of_pair(mesh.data(), options, rest, pair.kind, {pair.a, pair.b}, v);

@@ -20,7 +20,8 @@ double euclidean_reach(const MeshData& mesh, const Options& options, double d_ha
 
 // Returns the Euclidean separation of a pair, rounded up; exact where there is nothing to add. rest: what the
 // shape at rest leaves of separations; null: all.
-double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest, const Pair& pair);
+double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest,
+                            const Pair& pair);
 
 struct CloseInput {
   const Mesh& mesh;

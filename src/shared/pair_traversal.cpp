@@ -257,7 +257,8 @@ NarrowPhaseInput stored_step_input(const MeshData& mesh, const Motion& motion, c
 
 void copy_counts(const TraversalResult& traversal, Stats& stats) {
   const auto each = [&](std::int64_t NarrowPhaseStats::*field) {
-    return PairCounts{traversal.vertex_face.*field, traversal.edge_edge.*field, traversal.vertex_edge.*field, 0};
+    return PairCounts{traversal.vertex_face.*field, traversal.edge_edge.*field, traversal.vertex_edge.*field,
+                      0};
   };
   stats.candidates = each(&NarrowPhaseStats::candidates);
   stats.after_culls = each(&NarrowPhaseStats::after_culls);

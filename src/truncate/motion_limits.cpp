@@ -15,7 +15,8 @@ struct Input {
 };
 
 double separation_of(const Input& in, const Pair& pair) {
-  return separation_of_pair(in.mesh.data(), in.options, in.rest, pair.kind, {pair.a, pair.b}, pair.vertices.data());
+  return separation_of_pair(in.mesh.data(), in.options, in.rest, pair.kind, {pair.a, pair.b},
+                            pair.vertices.data());
 }
 
 void add_if_limiting(const Input& in, PairKind kind, IdPair ids, std::vector<MotionLimit>& found) {
@@ -37,8 +38,7 @@ void add_if_limiting(const Input& in, PairKind kind, IdPair ids, std::vector<Mot
 }  // namespace
 
 Gathered<MotionLimit> find_limits(const Mesh& mesh, const Motion& motion, const PairSource& candidates,
-                                  const TruncateOptions& options, const RestLimits* rest,
-                                  Budget& budget) {
+                                  const TruncateOptions& options, const RestLimits* rest, Budget& budget) {
   static_assert(sizeof(MotionLimit) == 104, "as documented");
   const Input input{mesh, motion, options, rest};
   auto all = gather<MotionLimit>(

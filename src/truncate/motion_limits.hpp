@@ -17,9 +17,9 @@ struct MotionLimit {
   DividingPlane plane;
 };
 
-// rest: null where the mesh has no shape at rest. Sorted by (kind, a, b); none where the budget is spent, or memory_limit.
+// rest: null where the mesh has no shape at rest. Sorted by (kind, a, b); none where the budget is spent, or
+// memory_limit.
 Gathered<MotionLimit> find_limits(const Mesh& mesh, const Motion& motion, const PairSource& candidates,
-                                  const TruncateOptions& options, const RestLimits* rest,
-                                  Budget& budget);
+                                  const TruncateOptions& options, const RestLimits* rest, Budget& budget);
 
 }  // namespace onset
