@@ -52,7 +52,9 @@ class Truncation {
     std::optional<Ball> ball;
     if (options_.d_hat && shaped) ball.emplace(x_t0_, x_t1_, *options_.d_hat);
     const Positions ends = ball ? Positions(ball->ends.data(), x_t0_.rows()) : x_t1_;
-    const StepSetup setup(mesh_, x_t0_, ends, options_, StepSetup::Use::candidates, r_.stats, budget_);
+    std::vector<double> start_in_plane, ends_in_plane;
+    const StepSetup setup(mesh_, of_mesh(x_t0_, start_in_plane), of_mesh(ends, ends_in_plane), options_,
+                          StepSetup::Use::candidates, r_.stats, budget_);
     r_.outcome = setup.motion.status;
     r_.vertex = setup.motion.bad_vertex;
     stay();
@@ -64,6 +66,12 @@ class Truncation {
   }
 
  private:
+  // Positions as the mesh has them: in the plane those of two columns, which `kept` holds.
+  Positions of_mesh(const Positions& x, std::vector<double>& kept) const {
+    if (mesh_.dimension() == 3) return x;
+    for (std::ptrdiff_t v = 0; v < x.rows(); ++v) kept.insert(kept.end(), {x(v, 0), x(v, 1)});
+    return {kept.data(), x.rows(), 2};
+  }
   void stay() {
     const std::size_t count = std::size_t(mesh_.num_vertices());
     r_.positions.clear();
@@ -83,6 +91,12 @@ class Truncation {
     if (found.too_many) r_.outcome = Outcome::out_of_memory;
     if (found.too_many || budget_.outcome() != Outcome::free) return;
     limits_ = std::move(found.found);
+    const PlaneLimits planes(mesh_.data(), setup.motion, options_);
+    const auto most = std::size_t(options_.memory_limit / std::int64_t(sizeof(MotionLimit)));
+    auto of_planes = planes.find(most - std::min(most, limits_.size()), budget_);
+    if (of_planes.too_many) r_.outcome = Outcome::out_of_memory;
+    if (of_planes.too_many || budget_.spent()) return;
+    limits_.insert(limits_.end(), of_planes.found.begin(), of_planes.found.end());
     const VertexGroups groups(mesh_.data(), setup.motion, x_t0_, budget_.stop());
     if (budget_.spent()) return;
     const LimitsOfGroups of_groups(groups, limits_);
@@ -90,7 +104,7 @@ class Truncation {
     parallel_ranges(groups.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (; first < last; ++first) {
         if (first % 16 == 0 && budget_.spent()) return;
-        const Cut cut = cut_group(setup.motion, limits_, of_groups.begin(first), of_groups.end(first));
+        const Cut cut = cut_group(setup.motion, limits_, planes, of_groups.begin(first), of_groups.end(first));
         for (const int* v = groups.begin(first); v != groups.end(first); ++v) put(setup.motion, *v, cut);
       }
     });
@@ -124,11 +138,23 @@ class Truncation {
       if (row[i] < 0) continue;
       row[i] = int(r_.pairs.size());
       r_.pairs.push_back(limits_[i].pair);
-      const bool face = limits_[i].pair.kind == PairKind::vertex_face;
-      ++(face ? r_.stats.contacts.vertex_face : r_.stats.contacts.edge_edge);
+      ++count_of(limits_[i].pair.kind);
     }
     for (int& by : r_.limited_by)
       if (by >= 0) by = row[std::size_t(by)];
+  }
+  std::int64_t& count_of(PairKind kind) {
+    PairCounts& counts = r_.stats.contacts;
+    switch (kind) {
+      case PairKind::vertex_face:
+        return counts.vertex_face;
+      case PairKind::edge_edge:
+        return counts.edge_edge;
+      case PairKind::vertex_edge:
+        return counts.vertex_edge;
+      default:
+        return counts.vertex_plane;
+    }
   }
   void end(Outcome outcome, const Pair& pair) { r_.outcome = outcome, r_.limiting = pair; }
   template <class Is>
@@ -160,6 +186,11 @@ class Truncation {
   std::vector<MotionLimit> limits_;
 };
 
+void drop_z(std::vector<double>& x) {
+  for (std::size_t v = 0; 3 * v < x.size(); ++v) x[2 * v] = x[3 * v], x[2 * v + 1] = x[3 * v + 1];
+  x.resize(x.size() / 3 * 2);
+}
+
 }  // namespace
 
 TruncatedStep truncate_step(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
@@ -168,7 +199,14 @@ TruncatedStep truncate_step(const Mesh& mesh, const Positions& x_t0, const Posit
   check_gap_share(options.gap_share);
   if (options.d_hat) check_d_hat(*options.d_hat, false);
   TruncatedStep r;
-  in_arena(options.threads, [&] { Truncation(mesh, x_t0, x_t1, options, r).run(); });
+  const int columns = mesh.dimension();
+  if (columns == 3) {
+    in_arena(options.threads, [&] { Truncation(mesh, x_t0, x_t1, options, r).run(); });
+    return r;
+  }
+  const Positions at_t0 = in_space(mesh.data(), "x_t0", x_t0), at_t1 = in_space(mesh.data(), "x_t1", x_t1);
+  in_arena(options.threads, [&] { Truncation(mesh, at_t0, at_t1, options, r).run(); });
+  drop_z(r.positions), drop_z(r.displacements);
   return r;
 }
 

@@ -28,7 +28,7 @@ struct TruncateOptions : Options {
 };
 
 struct TruncatedStep {
-  // x y z of each vertex, as many as the mesh has: `Positions(p.data(), #V)`. What is safe to store, as it
+  // x y z of each vertex (in the plane x y), as many as the mesh has: `Positions(p.data(), #V, dimension())`. What is safe to store, as it
   // is: exactly x_t1 where nothing limits the vertex, and exactly x_t0 where it may not move.
   std::vector<double> positions;
   // The same as a change of x_t0. x_t0 + displacement, rounded to doubles, is `positions` but for the last
@@ -65,7 +65,7 @@ struct TruncatedStep {
 // counts as one go together, and so do all of a rigid body, by one share. The same bytes for any number of
 // threads and any instruction set.
 //
-// x_t0, x_t1: #V x 3, model length, the two ends of a linear motion; x_t0 is assumed to be free of
+// x_t0, x_t1: #V x 3 (in the plane #V x 2), model length, the two ends of a linear motion; x_t0 is assumed to be free of
 // intersections (check() in onset/check.hpp tells).
 // options: separation, budgets, gap_share, d_hat. Accuracy, check_limit and touching_may_pass_through are not
 // used; memory_limit counts 104 bytes a pair that may limit a vertex.

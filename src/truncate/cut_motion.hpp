@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/truncate/motion_limits.hpp"
+#include "src/truncate/plane_limits.hpp"
 #include "src/truncate/vertex_groups.hpp"
 
 namespace onset {
@@ -42,7 +43,7 @@ struct Cut {
 };
 // Finds a share at which every vertex of the group, as moved() gives it, is certainly on its side of every
 // plane; at worst 0, where each is.
-Cut cut_group(const Motion& motion, const std::vector<MotionLimit>& limits,
+Cut cut_group(const Motion& motion, const std::vector<MotionLimit>& limits, const PlaneLimits& planes,
               const LimitsOfGroups::Entry* first, const LimitsOfGroups::Entry* last);
 
 }  // namespace onset

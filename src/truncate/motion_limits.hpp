@@ -14,6 +14,8 @@ struct MotionLimit {
   Pair pair;
   // Whether the pair touches at the start. Without a plane its vertices stay.
   bool touches, has_plane;
+  // Of a vertex and a plane of the mesh alone: whether it starts within its separation.
+  bool starts_within;
   DividingPlane plane;
 };
 

@@ -1,0 +1,50 @@
+#include "src/truncate/plane_limits.hpp"
+
+#include "narrowphase/plane/plane_decision.hpp"
+#include "src/planes/plane_contacts.hpp"
+
+namespace onset {
+
+double PlaneLimits::separation(int vertex) const { return separation_from_planes(mesh_, options_, vertex); }
+
+Gathered<MotionLimit> PlaneLimits::find(std::size_t most, Budget& budget) const {
+  const bool maximum_norm = options_.norm == Norm::maximum;
+  return gather_planes<MotionLimit>(
+      blocks_, most, budget,
+      [&](const PlaneBlock& block, int v, std::vector<MotionLimit>& found) {
+        const OrientedPlane& n = *block.plane;
+        const double *x0 = motion_.t0(v), d = separation(v);
+        const PlaneSpan span(n, x0, motion_.t1(v));
+        if (span.stays_beyond(n, d, options_.gap_share)) return;
+        const PlaneStart start = start_at_plane(n, question_of(n, x0, x0, d, maximum_norm));
+        MotionLimit limit{};
+        limit.pair = {PairKind::vertex_plane, v, block.row, {v, -1, -1, -1}};
+        limit.touches = start.touches, limit.has_plane = !start.touches, limit.starts_within = start.within;
+        const double least = d * n.norm;
+        limit.plane.first = start.within ? span.start + PlaneSpan(n, x0, x0).error
+                                         : least + options_.gap_share * (span.start - least);
+        found.push_back(limit);
+      },
+      [](const MotionLimit& limit) {
+        return IdPair{limit.pair.a, limit.pair.b};
+      });
+}
+
+// A height within its error of what it is to be decides nothing about the separation: integers do.
+bool PlaneLimits::keeps(const MotionLimit& limit, const double* x) const {
+  const OrientedPlane& n = blocks_.planes()[std::size_t(limit.pair.b)];
+  const PlaneSpan span(n, x, x);
+  if (limit.starts_within) return span.start - span.error >= limit.plane.first;
+  if (!(span.start >= limit.plane.first)) return false;
+  const double d = separation(limit.pair.a);
+  if (span.stays_beyond(n, d, 0)) return true;
+  return !start_at_plane(n, question_of(n, x, x, d, options_.norm == Norm::maximum)).within;
+}
+
+PlaneLimits::Heights PlaneLimits::heights(const MotionLimit& limit) const {
+  const PlaneSpan span(blocks_.planes()[std::size_t(limit.pair.b)], motion_.t0(limit.pair.a),
+                       motion_.t1(limit.pair.a));
+  return {span.start - limit.plane.first, span.end - limit.plane.first, span.error};
+}
+
+}  // namespace onset
