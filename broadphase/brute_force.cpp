@@ -21,6 +21,7 @@ class BruteForce final : public BroadPhase {
 
   void refit(const BroadPhaseInput& input, const Stop& stop) override {
     test_ = input.test;
+    kinds_ = wanted_kinds(input);
     finite_ = input.motion.status == Outcome::free;
     ready_ = false;
     for (Primitive kind : kPrimitives)
@@ -29,9 +30,9 @@ class BruteForce final : public BroadPhase {
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return !ready_ || !finite_ || boxes(second_primitive(kind)).ids.empty()
-               ? 0
-               : (boxes(first_primitive(kind)).ids.size() + kRows - 1) / kRows;
+    const bool wanted = std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
+    if (!wanted || !ready_ || !finite_ || boxes(second_primitive(kind)).ids.empty()) return 0;
+    return (boxes(first_primitive(kind)).ids.size() + kRows - 1) / kRows;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
@@ -54,6 +55,7 @@ class BruteForce final : public BroadPhase {
   const MeshData& mesh_;
   BoxTest test_ = BoxTest::both_ends;
   bool finite_ = true;
+  std::vector<PairKind> kinds_;
   std::array<MotionBoxes, 3> boxes_;
 };
 

@@ -200,7 +200,7 @@ void cut_off(const Options& options, ActiveSet& set) {
 void Call::add_turning(const Motion& rest, ActiveSet& set) {
   ActiveSet at_rest;
   const std::vector<FoundPair> touching = touching_in_bodies(set.stats);
-  fill_contacts(mesh_, rest, options_.instruction_set, touching, budget_.interruption(), at_rest);
+  fill_contacts(mesh_, rest, options_, touching, budget_.interruption(), at_rest);
   set.contacts.insert(set.contacts.end(), at_rest.contacts.begin(), at_rest.contacts.end());
   double until = 1;
   if (const Contact* first = set.earliest()) until = std::min(until, first->toi + options_.window);
@@ -223,9 +223,10 @@ ActiveSet Call::active_set() {
   set.outcome = setup.motion.status, set.vertex = setup.motion.bad_vertex;
   if (set.outcome != Outcome::free) return set;
   set.complete_until = INFINITY;
+  set.planes = mesh_.data().planes;
   const TraversalResult traversal = find_contacts(linear, setup, options_, Collect::all, budget_, set.stats);
   note_worst(mesh_, traversal, set.stats);
-  fill_contacts(mesh_, setup.motion, options_.instruction_set, traversal.found, budget_.interruption(), set);
+  fill_contacts(mesh_, setup.motion, options_, traversal.found, budget_.interruption(), set);
   if (turns_ && budget_.outcome() == Outcome::free)
     add_turning(make_motion(mesh_.data().num_vertices, at(x0_), at(x0_)), set);
   cut_off(options_, set);
