@@ -1,6 +1,7 @@
 // What a plane adds to a step, an active set and a line search: one scene with a plane and without, by turns.
 //   onset_plane_cost [VERTICES [REPEATS]]
-// Prints CPU milliseconds a call, one thread, median over repeats, and the median of the ratios of neighbours.
+// Prints CPU milliseconds a call, one thread, median over repeats, and the median of the ratios of
+// neighbours.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

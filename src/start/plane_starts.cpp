@@ -22,8 +22,8 @@ std::optional<PlaneStart> near(const Motion& motion, const Options& options, con
 
 }  // namespace
 
-Gathered<std::array<int, 2>> find_behind_planes(const Mesh& mesh, const Motion& motion, const Options& options,
-                                                std::size_t most, Budget& budget) {
+Gathered<std::array<int, 2>> find_behind_planes(const Mesh& mesh, const Motion& motion,
+                                                const Options& options, std::size_t most, Budget& budget) {
   using Ids = std::array<int, 2>;
   return gather_planes<Ids>(
       PlaneBlocks(mesh.data(), motion.axes, options.norm), most, budget,

@@ -79,7 +79,7 @@ TEST_CASE("close pairs, starts and intersections have the planes that exact arit
         if (at == close.end()) continue;
         ++close_count;
         const Rational distance(at->distance), low = distance * Rational(1 - 0x1p-47),
-                       high = distance * Rational(1 + 0x1p-47) + Rational(0x1p-1073);
+                                               high = distance * Rational(1 + 0x1p-47) + Rational(0x1p-1073);
         const Rational squared = oracle::sign(f) <= 0 ? Rational(0) : Rational(f * f);
         CHECK(low * low * truth.length_squared() <= squared);
         CHECK(high * high * truth.length_squared() >= squared);

@@ -21,10 +21,10 @@ struct Counts {
 std::string text_of(const PlaneScene& s, int v, std::size_t p) {
   char text[512];
   const Plane& n = s.rules.planes[p];
-  std::snprintf(text, sizeof text, "vertex %d: %a %a %a -> %a %a %a, plane %zu: %a %a %a, %a, separation %a, norm %d",
-                v, s.x_t0(v, 0), s.x_t0(v, 1), s.x_t0(v, 2), s.x_t1(v, 0), s.x_t1(v, 1), s.x_t1(v, 2), p,
-                n.normal[0], n.normal[1], n.normal[2], n.offset, s.options.min_separation,
-                int(s.options.norm));
+  std::snprintf(
+      text, sizeof text, "vertex %d: %a %a %a -> %a %a %a, plane %zu: %a %a %a, %a, separation %a, norm %d",
+      v, s.x_t0(v, 0), s.x_t0(v, 1), s.x_t0(v, 2), s.x_t1(v, 0), s.x_t1(v, 1), s.x_t1(v, 2), p, n.normal[0],
+      n.normal[1], n.normal[2], n.offset, s.options.min_separation, int(s.options.norm));
   return text;
 }
 
