@@ -8,8 +8,16 @@ namespace {
 // The vector between the closest points, from the second primitive to the first.
 Vec3 between(const std::array<int, 4>& vertices, const std::array<double, 4>& weights, const Vector& x) {
   Vec3 w = Vec3::Zero();
-  for (std::size_t i = 0; i < 4; ++i) w += weights[i] * at(x, vertices[i]);
+  for (std::size_t i = 0; i < 4; ++i)
+    if (weights[i] != 0) w += weights[i] * at(x, vertices[i]);
   return w;
+}
+
+// The direction from the second to the first: of a plane its normal, of others that of `w`.
+Vec3 direction(const onset::ClosePair& p, const std::vector<onset::Plane>& planes, const Vec3& w) {
+  if (p.kind != onset::PairKind::vertex_plane) return w.normalized();
+  const auto& n = planes[std::size_t(p.b)].normal;
+  return {n[0], n[1], n[2]};
 }
 
 // gradient = slope n weights_i, Hessian block = curvature weights_i weights_j.
@@ -41,13 +49,14 @@ double Barrier::force(double d) const {
 
 // As a function of the distance the barrier is convex; the curvature of the distance itself, which it
 // multiplies with a negative slope, is left out: what remains is positive semidefinite.
-void Barrier::add_derivatives(const onset::ClosePairs& close, const Vector& x, System& system) const {
+void Barrier::add_derivatives(const onset::ClosePairs& close, const std::vector<onset::Plane>& planes,
+                              const Vector& x, System& system) const {
   const double D = d_hat_ * d_hat_;
   for (const onset::ClosePair& p : close) {
     const Vec3 w = between(p.vertices, p.weights, x);
-    const double d = w.norm(), s = d * d / D;
+    const double d = p.kind == onset::PairKind::vertex_plane ? p.distance : w.norm(), s = d * d / D;
     if (!(s < 1)) continue;
-    const Vec3 n = w / d;
+    const Vec3 n = direction(p, planes, w);
     const double slope = -(2 * (s - 1) * std::log(s) + (s - 1) * (s - 1) / s);               // db / ds
     const double bend = -(2 * std::log(s) + 4 * (s - 1) / s - (s - 1) * (s - 1) / (s * s));  // d2b / ds2
     const double second = kappa_ * (bend * 4 * d * d / (D * D) + slope * 2 / D);             // d2 / dd2
@@ -56,13 +65,13 @@ void Barrier::add_derivatives(const onset::ClosePairs& close, const Vector& x, S
 }
 
 Friction::Friction(double coefficient, double slip, const Barrier& barrier, const onset::ClosePairs& close,
-                   const Vector& x)
+                   const std::vector<onset::Plane>& planes, const Vector& x)
     : slip_(slip) {
   if (coefficient == 0) return;
   for (const onset::ClosePair& p : close) {
     const Vec3 w = between(p.vertices, p.weights, x);
     const double limit = coefficient * barrier.force(p.distance);
-    if (limit > 0) contacts_.push_back({p.vertices, p.weights, w.normalized(), w, limit});
+    if (limit > 0) contacts_.push_back({p.vertices, p.weights, direction(p, planes, w), w, limit});
   }
 }
 

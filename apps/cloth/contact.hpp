@@ -15,7 +15,8 @@ class Barrier {
   Barrier(double kappa, double d_hat) : kappa_(kappa), d_hat_(d_hat) {}
 
   double energy(const onset::ClosePairs& close) const;  // at the positions `close` was made for
-  void add_derivatives(const onset::ClosePairs& close, const Vector& x, System& system) const;
+  void add_derivatives(const onset::ClosePairs& close, const std::vector<onset::Plane>& planes,
+                       const Vector& x, System& system) const;
   double force(double distance) const;  // pushing apart, >= 0
 
  private:
@@ -27,7 +28,7 @@ class Barrier {
 class Friction {
  public:
   Friction(double coefficient, double slip, const Barrier& barrier, const onset::ClosePairs& close,
-           const Vector& x);
+           const std::vector<onset::Plane>& planes, const Vector& x);
 
   double energy(const Vector& x) const;
   void add_derivatives(const Vector& x, System& system) const;

@@ -34,8 +34,8 @@ CLI::Validator number(double least, bool is_whole, const std::string& words) {
 }
 
 void add_options(CLI::App& app, Arguments& a) {
-  app.add_option("--scene", a.scene, "sphere, twist or pile")
-      ->check(CLI::IsMember({"sphere", "twist", "pile"}))
+  app.add_option("--scene", a.scene, "sphere, twist, pile or ground")
+      ->check(CLI::IsMember({"sphere", "twist", "pile", "ground"}))
       ->capture_default_str();
   app.add_option("--triangles", a.triangles, "Of the cloth, about")
       ->check(CLI::Range(40, 1000000))

@@ -141,7 +141,8 @@ Scene twist(int triangles, unsigned seed) {
   return scene;
 }
 
-Scene pile(int triangles, unsigned seed) {
+// On a floor of two triangles, or on a plane.
+Scene pile(int triangles, unsigned seed, bool on_plane) {
   Scene scene;
   Builder b(seed);
   constexpr int kSheets = 5;
@@ -149,7 +150,10 @@ Scene pile(int triangles, unsigned seed) {
     b.add_sheet(0.5, 0.5, triangles / kSheets, 0.13 + 0.03 * i, b.uniform(0, kPi / 2));
   b.end_cloth(scene);
   b.add_sphere(Vec3::Zero(), 0.1, 2);
-  b.add_floor(1, -0.11);
+  if (on_plane)
+    scene.planes.push_back({{0, 0, 1}, -0.11});
+  else
+    b.add_floor(1, -0.11);
   b.finish(scene);
   scene.moved_to = [start = scene.x](int v, double) -> Vec3 { return at(start, v); };
   return scene;
@@ -160,8 +164,9 @@ Scene pile(int triangles, unsigned seed) {
 Scene make_scene(const std::string& name, int triangles, unsigned seed) {
   if (name == "sphere") return sphere(triangles, seed);
   if (name == "twist") return twist(triangles, seed);
-  if (name == "pile") return pile(triangles, seed);
-  throw std::invalid_argument("there is no scene '" + name + "': sphere, twist, pile");
+  if (name == "pile") return pile(triangles, seed, false);
+  if (name == "ground") return pile(triangles, seed, true);
+  throw std::invalid_argument("there is no scene '" + name + "': sphere, twist, pile, ground");
 }
 
 }  // namespace cloth

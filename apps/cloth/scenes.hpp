@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <onset/collision_rules.hpp>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Scene {
   Vector rest;                            // of the cloth, flat
   std::vector<std::array<int, 3>> faces;  // the cloth's first
   std::size_t cloth_faces = 0;
+  std::vector<onset::Plane> planes;                       // with unit normals
   std::vector<char> is_free;                              // not moved by hand
   std::function<Vec3(int vertex, double time)> moved_to;  // vertices that are not free
   Vec3 gravity{0, 0, -9.81};
@@ -22,7 +24,8 @@ struct Scene {
 };
 
 // sphere: a cloth falls on a sphere that turns. twist: a strip held at both ends, which are turned. pile:
-// sheets fall on each other, on a ball and on the floor. `triangles`: of the cloth, about. Throws
+// sheets fall on each other, on a ball and on the floor. ground: the same, where the floor is a plane
+// (onset::CollisionRules::planes). `triangles`: of the cloth, about. Throws
 // std::invalid_argument for other names.
 Scene make_scene(const std::string& name, int triangles, unsigned seed);
 

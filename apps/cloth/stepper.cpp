@@ -40,6 +40,12 @@ double barrier_stiffness(const Elastic& elastic, const Material& material, doubl
   return 10 * mass * 9.81 * d_hat + 0.1 * material.stretch * d_hat * d_hat;
 }
 
+onset::CollisionRules rules_of(const Scene& scene) {
+  onset::CollisionRules rules;
+  rules.planes = scene.planes;
+  return rules;
+}
+
 }  // namespace
 
 // What a time step minimizes.
@@ -51,7 +57,7 @@ struct Stepper::Goal {
 Stepper::Stepper(Scene scene, const Settings& settings)
     : scene_(std::move(scene)),
       settings_(settings),
-      mesh_(scene_.x.size() / 3, matrix(scene_.faces)),
+      mesh_(scene_.x.size() / 3, matrix(scene_.faces), rules_of(scene_)),
       elastic_(scene_.rest, first(scene_.faces, scene_.cloth_faces), settings.material),
       d_hat_(kReach * scene_.edge),
       barrier_(barrier_stiffness(elastic_, settings.material, d_hat_), d_hat_),
@@ -72,7 +78,7 @@ Vector Stepper::direction(const Goal& goal, const Vector& moved) const {
   const double h = settings_.time_step;
   System system(scene_.is_free, moved);
   elastic_.add_derivatives(x_, system);
-  barrier_.add_derivatives(close_, x_, system);
+  barrier_.add_derivatives(close_, scene_.planes, x_, system);
   goal.friction.add_derivatives(x_, system);
   for (std::size_t v = 0; v < scene_.is_free.size(); ++v) {
     const double m = elastic_.masses()[v] / (h * h);
@@ -125,7 +131,7 @@ StepReport Stepper::step() {
   const double h = settings_.time_step;
   const Vector start = x_;
   time_ += h;
-  Goal goal{x_ + h * velocity_, Friction(settings_.friction, 1e-3 * h, barrier_, close_, x_)};
+  Goal goal{x_ + h * velocity_, Friction(settings_.friction, 1e-3 * h, barrier_, close_, scene_.planes, x_)};
   for (std::size_t v = 0; v < scene_.is_free.size(); ++v)
     goal.inertial.segment<3>(3 * Eigen::Index(v)) += h * h * scene_.gravity;
 

@@ -56,6 +56,11 @@ class Cloth(unittest.TestCase):
         self.assertGreater(steps[-1]["contacts"], 0)
         self.assertLess(min(s["toi"] for s in steps), 1)  # the filter had something to do
 
+    def test_ground(self):
+        text, steps = self.steps("ground", "--triangles", 200, "--steps", 40)
+        self.check_steps(text, steps, 40)
+        self.assertGreater(steps[-1]["contacts"], 0)
+
     def test_twist(self):
         text, steps = self.steps("twist", "--triangles", 200, "--steps", 10)
         self.check_steps(text, steps, 10)

@@ -32,7 +32,7 @@ class Digest {
     if (value) add(*value);
   }
   void add(const Pair& p) { add(p.kind), add(p.a), add(p.b), add(p.vertices); }
-  void add(const PairCounts& c) { add(c.vertex_face), add(c.edge_edge); }
+  void add(const PairCounts& c) { add(c.vertex_face), add(c.edge_edge), add(c.vertex_plane); }
   void add(const Contact& c) {
     add(static_cast<const Pair&>(c));
     add(c.toi), add(c.toi_hi), add(c.step_limit), add(c.tolerance), add(c.outcome), add(c.certainty);
@@ -49,7 +49,7 @@ class Digest {
     add(r.gap_share), add(r.gap_share_reduced), add(r.assured), add(r.closest);
   }
   void add(const Candidates& c) {
-    add(c.vertex_face), add(c.edge_edge), add(c.counts), add(c.outcome), add(c.vertex);
+    add(c.vertex_face), add(c.edge_edge), add(c.vertex_plane), add(c.counts), add(c.outcome), add(c.vertex);
   }
   void add(const ClosePair& p) {
     add(static_cast<const Pair&>(p));
@@ -57,7 +57,7 @@ class Digest {
   }
   void add(const ClosePairs& c) { add(c.pairs), add(c.d_hat), add(c.outcome), add(c.vertex); }
   void add(const Intersection& p) { add(p.edge), add(p.face), add(p.kind), add(p.vertices); }
-  void add(const Intersections& i) { add(i.pairs), add(i.outcome), add(i.vertex); }
+  void add(const Intersections& i) { add(i.pairs), add(i.behind_planes), add(i.outcome), add(i.vertex); }
   void add(const StartFinding& f) { add(f.fault), add(f.count), add(f.text); }
   void add(const StartReport& r) {
     add(r.intersections), add(r.touching), add(r.within_separation), add(r.copied_vertices);

@@ -1,4 +1,5 @@
 // Sequences of calls on one mesh: each answer is that of a fresh mesh, to the byte.
+#include <cmath>
 #include <exception>
 #include <stdexcept>
 
@@ -26,7 +27,7 @@ class Session {
   std::string run() {
     for (int call = 0; call < kMostCalls && bytes_.left() > 0 && broken_.empty(); ++call) {
       int what = 0;
-      bytes_.whole(what, 0, 19);
+      bytes_.whole(what, 0, 20);
       trail_ += " " + std::to_string(what);
       if (what < 10)
         ask(what);
@@ -157,6 +158,8 @@ class Session {
         const InstructionSet sets[] = {InstructionSet::automatic, InstructionSet::scalar};
         return bytes_.one_of(input_.options.instruction_set, sets);
       }
+      case 19:
+        return add_plane();
       default:
         input_.options = Options();
         describe_options(bytes_, input_);
@@ -173,6 +176,30 @@ class Session {
     for (int i = 0; i < input_.vertices; ++i)
       if (v == i || v == input_.vertices) input_.x_t0(i, axis) += by, input_.x_t1(i, axis) += by;
     hold_statics(input_);
+  }
+
+  // A plane at a vertex, or anywhere.
+  void add_plane() {
+    Plane plane;
+    for (double& n : plane.normal) {
+      int whole = 0;
+      bytes_.whole(whole, -3, 3);
+      n = whole;
+    }
+    if (plane.normal == std::array<double, 3>{0, 0, 0}) bytes_.real(plane.normal[1]);
+    int v = 0;
+    bytes_.whole(v, 0, input_.vertices);
+    if (v < input_.vertices)
+      for (int a = 0; a < 3; ++a) plane.offset += plane.normal[std::size_t(a)] * input_.x_t0(v, a);
+    else
+      bytes_.real(plane.offset);
+    const auto& n = plane.normal;
+    for (const double x : {n[0], n[1], n[2], plane.offset})
+      if (!std::isfinite(x)) return;
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0) return;
+    if (input_.rules.planes.size() > 3) input_.rules.planes.clear();  // no rule names one
+    input_.rules.planes.push_back(plane);
+    mesh_.set_rules(input_.rules);
   }
 
   struct Search {
