@@ -41,7 +41,13 @@ class RestLimits {
     if (place == end || *place != pair.b) return std::numeric_limits<double>::infinity();
     return rows.most[std::size_t(place - rows.other.begin())];
   }
-  std::size_t size() const { return rows_[0].other.size() + rows_[1].other.size() + rows_[2].other.size(); }
+  // Returns how many limits are below a reach.
+  std::size_t count_below(double reach) const {
+    const auto below = [reach](double limit) { return limit < reach; };
+    std::size_t n = 0;
+    for (const Rows& rows : rows_) n += std::size_t(std::count_if(rows.most.begin(), rows.most.end(), below));
+    return n;
+  }
 
  private:
   // Row a is [first[a], first[a + 1]).

@@ -290,8 +290,8 @@ TEST_CASE("what is found at rest is within the budgets of the call that needs it
   CHECK(compute_collision_free_stepsize(mesh, x, x, o).outcome == Outcome::out_of_time);
   o.time_limit = INFINITY;
   CHECK(compute_collision_free_stepsize(mesh, x, x, o).step == 1);
-  o.memory_limit = 12 * 100;  // found already
-  CHECK(compute_collision_free_stepsize(mesh, x, x, o).step == 1);
+  o.memory_limit = 12 * 100;  // found already, and no less is asked for
+  CHECK(compute_collision_free_stepsize(mesh, x, x, o).outcome == Outcome::out_of_memory);
 }
 
 TEST_CASE("so many pairs of neighbours that they do not fit are an error", "[unit]") {

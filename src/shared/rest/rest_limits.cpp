@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/distance/closest_points.hpp"
@@ -19,6 +20,9 @@ double limit_of(double share, double lower) {
   const double r = share * lower * (1 - 0x1p-51);
   return std::max(0.0, r < 0x1p-1000 ? r - 0x1p-1073 : r);
 }
+
+// Returns how many pairs Options::memory_limit holds, at 12 bytes each.
+std::size_t most_pairs(const Options& options) { return std::size_t(options.memory_limit) / 12; }
 
 // Finds the limits below `reach` in one norm.
 class RestSearch {
@@ -60,7 +64,7 @@ class RestSearch {
 
   std::vector<RestLimit> find(const PairSource& pairs, PairKind kind) {
     if (budget_.spent()) return {};
-    const auto most = std::size_t(options_.memory_limit) / kBytesAPair;
+    const std::size_t most = most_pairs(options_);
     auto all = gather<RestLimit>(
         pairs, {kind}, most - std::min(most, kept_), budget_,
         [&](PairKind, const IdPair* batch, std::size_t count, std::vector<RestLimit>& found) {
@@ -83,7 +87,6 @@ class RestSearch {
                                           : closest_points(kind, x).lower;
   }
 
-  static constexpr std::size_t kBytesAPair = 12;
   const MeshData& mesh_;
   const Options& options_;
   const double reach_;
@@ -100,7 +103,13 @@ std::shared_ptr<const RestLimits> rest_limits(const MeshData& mesh, const Option
   if (reach == 0) return nullptr;
   const std::size_t slot = std::size_t(options.norm);
   auto known = mesh.rest->limits.get(slot);
-  if (known && known->reach() >= reach) return known;
+  if (known && known->reach() >= reach) {
+    // As if they were found now, so that the answer does not depend on earlier calls.
+    const bool limited = options.memory_limit < std::numeric_limits<std::int64_t>::max();
+    if (!limited || known->count_below(reach) <= most_pairs(options)) return known;
+    budget.run_out_of_memory();
+    return nullptr;
+  }
   known = RestSearch(mesh, options, reach, budget).run();
   if (known) mesh.rest->limits.put(known, slot);
   return known;

@@ -65,6 +65,7 @@ std::function<double(PairKind, const std::array<int, 4>&)> separations_of(const 
                                                                           const Options& options,
                                                                           std::string& wrong) {
   const CollisionRules& rules = mesh.rules();
+  const auto body = [&](int vertex) { return rules.bodies.empty() ? 0 : rules.bodies[std::size_t(vertex)]; };
   Options plenty;
   plenty.min_separation = options.min_separation, plenty.norm = options.norm;
   Budget budget(plenty);
@@ -76,8 +77,7 @@ std::function<double(PairKind, const std::array<int, 4>&)> separations_of(const 
     const int side = scenes::first_body(kind);
     double whole = options.min_separation;
     for (const BodySeparation& s : rules.body_separations) {
-      const int first = rules.bodies[std::size_t(v[0])],
-                second = rules.bodies[std::size_t(v[std::size_t(side)])];
+      const int first = body(v[0]), second = body(v[std::size_t(side)]);
       if ((s.body_a == first && s.body_b == second) || (s.body_a == second && s.body_b == first))
         whole = s.separation;
     }
