@@ -24,7 +24,8 @@ struct ClosePair : Pair {
   std::array<double, 4> weights{};
   // The length of that sum: within 2^-47 rho of the exact distance, and shorter by no more than its own
   // rounding (docs/theory.md, L42). Where the pair touches it may be a little more than 0, and then the sum
-  // has no direction to speak of. vertex_plane: within 2^-48 of it, relatively; 0 on the plane and behind it.
+  // has no direction to speak of. vertex_plane: within 2^-48 of it, relatively, or by half
+  // of the smallest number; 0 on the plane and behind it.
   double distance = 0;
   // What the pair has to keep: Options::min_separation plus thickness, times sqrt(3) in the maximum norm.
   double separation = 0;

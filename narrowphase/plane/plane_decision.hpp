@@ -32,9 +32,14 @@ std::optional<PairResult> decide_plane(const OrientedPlane& plane, const PlaneQu
 struct PlaneStart {
   // On the plane or behind it; no farther from it than the separation, in the norm asked for. Both exact.
   bool touches, within;
-  // Of the vertex and the half-space, Euclidean, model length: within 2^-49 of it, relatively.
+  // Of the vertex and the half-space, Euclidean, model length: within 2^-49 of it, relatively, or by half of
+  // the smallest number.
   double distance;
 };
+// Returns a lower bound of the exact distance: the product rounds once, by half of the smallest number too.
+inline double below_plane_distance(double distance) {
+  return std::max(0.0, distance * (1 - 0x1p-48) - 0x1p-1074);
+}
 PlaneStart start_at_plane(const OrientedPlane& plane, const PlaneQuestion& question);
 
 // At time t in [0, 1]: the distance as above, and how much it grows in the whole step where the vertex is in

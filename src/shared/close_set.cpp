@@ -79,7 +79,7 @@ void add_if_close_to_plane(const CloseInput& in, const PlaneBlock& block, int v,
   if (PlaneSpan(*block.plane, x, x).stays_beyond(*block.plane, p.separation + (in.d_hat + in.slack), 0))
     return;
   p.distance = start_at_plane(*block.plane, question_of(*block.plane, x, x, 0, false)).distance;
-  const double gap = p.distance * (1 - 0x1p-48) - p.separation;
+  const double gap = below_plane_distance(p.distance) - p.separation;
   if (gap > (in.d_hat + in.slack) * (1 + 0x1p-52)) return;
   p.weights = {1, 0, 0, 0};
   p.gap = std::max(0.0, gap * (1 - 0x1p-52));

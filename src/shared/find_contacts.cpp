@@ -19,6 +19,17 @@ std::size_t sampled_stride(const BroadPhase& broad) {
 // With a t_max beyond this, new boxes cost more than they spare.
 constexpr double kShrinksUpTo = 0.5;
 
+// With so many pairs a primitive, boxes of a part of the step spare more than they cost.
+constexpr std::int64_t kManyPairs = 16;
+std::int64_t mesh_size(const MeshData& mesh) {
+  return std::int64_t(mesh.num_vertices) + std::int64_t(mesh.edges.size()) + std::int64_t(mesh.faces.size());
+}
+
+struct Shrunk {
+  double t_max = 1;
+  bool boxes = false;
+};
+
 // Bounds the earliest contact by a sample of the blocks, shrinks the boxes to that time, and returns it as
 // t_max. A pair that is reported at t with checks left is within StepSetup::reach of its separation then
 // (docs/theory.md, L18), so boxes wider by that on [0, t_max] lose none that is reported by then. A pair of
@@ -26,14 +37,15 @@ constexpr double kShrinksUpTo = 0.5;
 //
 // For a limiting pair, the result is then the first of the active set; what the sample found counts whatever
 // the boxes say. With a window, t_max is where the window of the first contact found ends. `known` is such a
-// time already, that of a plane.
-double shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& narrow, const Options& options,
+// time already, that of a plane. New boxes for it alone are made where there are many pairs.
+Shrunk shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& narrow, const Options& options,
                        Collect collect, double known, Budget& budget, Limits& sampled) {
-  if (!narrow.uses_t_max()) return 1;
+  if (!narrow.uses_t_max()) return {};
   double t_max = std::min(known, 1.0);
-  sampled = traverse_pairs(*setup.broad, narrow, Collect::first, t_max, budget, sampled_stride(*setup.broad))
-                .limits;
-  if (!sampled.contact && known > 1) return 1;
+  const std::size_t stride = sampled_stride(*setup.broad);
+  const TraversalResult sample = traverse_pairs(*setup.broad, narrow, Collect::first, t_max, budget, stride);
+  sampled = sample.limits;
+  if (!sampled.contact && known > 1) return {};
   sampled.stored = sampled.clear = {};  // the second traversal finds them
   if (sampled.contact && sampled.contact->result.outcome != PairOutcome::max_checks) {
     const PairResult& first = sampled.contact->result;
@@ -41,14 +53,16 @@ double shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& na
     const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
     t_max = std::min(t_max, collect == Collect::all ? latest_time(first) + options.window : limit);
   }
-  if (t_max > kShrinksUpTo) return t_max;
+  const std::int64_t pairs = (sample.vertex_face.candidates + sample.edge_edge.candidates) * int(stride);
+  const bool pays = t_max < known || pairs > kManyPairs * mesh_size(mesh.data());
+  if (t_max > kShrinksUpTo || !pays) return {t_max, false};
   BroadPhaseInput shrunk = collect == Collect::all ? broad_phase_input(mesh.data(), setup.motion, options,
                                                                        setup.reach, t_max, BoxTest::both_ends)
                                                    : *setup.tree;
   shrunk.t_max = t_max;
   shrunk.test = BoxTest::both_ends;
   setup.broad->refit(shrunk, budget.stop());
-  return t_max;
+  return {t_max, true};
 }
 
 // Makes the times of those exact that can be the earliest: no other is before the least toi_hi.
@@ -133,11 +147,11 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   const bool shrinks = collect == Collect::first || (collect == Collect::all && options.window < 1);
   Limits sampled;
   const double known = shrinks ? t_max_of(planes, options) : INFINITY;
-  const double t_max =
-      shrinks ? shrink_to_t_max(mesh, setup, narrow, options, collect, known, budget, sampled) : 1;
+  Shrunk shrunk;
+  if (shrinks) shrunk = shrink_to_t_max(mesh, setup, narrow, options, collect, known, budget, sampled);
   TraversalBounds limits = limited;
-  if (t_max <= kShrinksUpTo) limits.whole = &*setup.tree;
-  traversal = traverse_pairs(*setup.broad, narrow, collect, t_max, budget, 1, limits);
+  if (shrunk.boxes) limits.whole = &*setup.tree;
+  traversal = traverse_pairs(*setup.broad, narrow, collect, shrunk.t_max, budget, 1, limits);
   if (collect == Collect::first) traversal.limits.add(sampled);
   if (collect == Collect::all) sharpen_earliest(narrow, traversal.found, budget);
   add_planes(planes, limited.most, traversal);

@@ -47,7 +47,8 @@ Gathered<NearPair> find_near_planes(const Mesh& mesh, const Motion& motion, cons
         p.pair.weights = {1, 0, 0, 0};
         p.pair.separation = euclidean_separation(mesh, options, p.pair);
         p.pair.distance = start->distance;
-        p.pair.gap = std::max(0.0, (start->distance * (1 - 0x1p-48) - p.pair.separation) * (1 - 0x1p-52));
+        p.pair.gap =
+            std::max(0.0, (below_plane_distance(start->distance) - p.pair.separation) * (1 - 0x1p-52));
         found.push_back(p);
       },
       [](const NearPair& p) {

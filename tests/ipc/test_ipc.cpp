@@ -144,6 +144,26 @@ TEST_CASE("candidates of positions are those of a motion that stays there", "[un
   }
 }
 
+TEST_CASE("planes keep vertices out of every call of the adapter", "[unit]") {
+  onset::scenes::Scene s = onset::scenes::cloth(3, 3);
+  onset::scenes::displace(s, {0, 0, -2});
+  ipc::CollisionMesh mesh(s.x_t0, MatrixXi(), s.faces);
+  mesh.set_planes({{{0, 0, 2}, -2}});
+  for (const bool filtered : {false, true}) {
+    if (filtered) mesh.can_collide = [](std::size_t, std::size_t) { return true; };
+    const double step = ipc::compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1);
+    CHECK((step > 0.399 && step <= 0.4));
+    CHECK(!ipc::is_step_collision_free(mesh, s.x_t0, s.x_t1));
+    CHECK(!ipc::has_intersections(mesh, s.x_t0));
+    CHECK(ipc::has_intersections(mesh, s.x_t1));
+  }
+  ipc::Candidates candidates;
+  candidates.build(mesh, s.x_t0, s.x_t1);
+  REQUIRE(candidates.pv_candidates.size() == 9);
+  CHECK((candidates.pv_candidates[4].plane_id == 0 && candidates.pv_candidates[4].vertex_id == 4));
+  CHECK(candidates.compute_collision_free_stepsize(mesh, s.x_t0, s.x_t1) <= 0.4);
+}
+
 TEST_CASE("what is not finite has no candidates and no step", "[unit]") {
   const MatrixXd x = MatrixXd::Random(6, 3);
   const MatrixXi faces = (MatrixXi(2, 3) << 0, 1, 2, 3, 4, 5).finished();

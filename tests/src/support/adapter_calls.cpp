@@ -34,6 +34,7 @@ void add_candidates(const ipc::Candidates& c, Answer& a) {
   for (const auto& p : c.ev_candidates) a.add(p.edge_id, p.vertex_id);
   for (const auto& p : c.ee_candidates) a.add(p.edge0_id, p.edge1_id);
   for (const auto& p : c.fv_candidates) a.add(p.face_id, p.vertex_id);
+  for (const auto& p : c.pv_candidates) a.add(p.plane_id, p.vertex_id);
 }
 
 }  // namespace
@@ -61,6 +62,7 @@ void ask_surfaces(const Mesh&, const Subject& s, const Options&, Answer& a) {
 void ask_adapter(const Mesh&, const Subject& s, const Options&, Answer& a) {
   const Eigen::MatrixXd &x_t0 = s.scene.x_t0, &x_t1 = s.scene.x_t1;
   ipc::CollisionMesh mesh(x_t0, edges(s.scene.faces), s.scene.faces);
+  mesh.set_planes(s.rules.planes);
   const ipc::TightInclusionCCD ccd = ipc::DEFAULT_NARROW_PHASE_CCD;
   a.add(ipc::options_of(0.5, ccd).min_separation, ipc::in_environment([&] { return s.d_hat / 3; }));
   for (const bool filtered : {false, true}) {
