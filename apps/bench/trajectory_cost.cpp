@@ -50,8 +50,8 @@ Surface ellipsoid(double radius) {
   for (int i = 0; i < kRings; ++i)
     for (int j = 0; j < kSegments; ++j) {
       const double a = kPi * (i + 1) / (kRings + 1), b = 2 * kPi * j / kSegments;
-      s.x.row(i * kSegments + j) << radius * std::sin(a) * std::cos(b), 0.6 * radius * std::sin(a) * std::sin(b),
-          0.6 * radius * std::cos(a);
+      s.x.row(i * kSegments + j) << radius * std::sin(a) * std::cos(b),
+          0.6 * radius * std::sin(a) * std::sin(b), 0.6 * radius * std::cos(a);
     }
   s.x.bottomRows(2) << 0, 0, 0.6 * radius, 0, 0, -0.6 * radius;
   const int top = kRings * kSegments, bottom = top + 1;

@@ -76,10 +76,10 @@ class ONSET_API RigidTrajectory final : public Trajectory {
   ~RigidTrajectory() override;
 
   // Adds a body of these vertices, or of [first, last), and returns its number; x_t1 of them is not used.
-  // rotation: w, radians, a rotation vector of any length up to 2^20. translation: d, centre: c, model length.
-  // Numbers that are not finite make X(t) NaN, which a call answers with an outcome.
-  // Throws std::invalid_argument that names what is wrong: a vertex out of range, one that is in a body
-  // already, a longer rotation.
+  // rotation: w, radians, a rotation vector of any length up to 2^20. translation: d, centre: c, model
+  // length. Numbers that are not finite make X(t) NaN, which a call answers with an outcome. Throws
+  // std::invalid_argument that names what is wrong: a vertex out of range, one that is in a body already, a
+  // longer rotation.
   int add_body(const std::vector<int>& vertices, const Eigen::Vector3d& rotation,
                const Eigen::Vector3d& translation, const Eigen::Vector3d& centre);
   int add_body(std::ptrdiff_t first, std::ptrdiff_t last, const Eigen::Vector3d& rotation,
@@ -101,12 +101,11 @@ class ONSET_API RigidTrajectory final : public Trajectory {
 // Guarantee: never late. step > 0 wherever all pairs start apart by more than twice StepResult::rounding. A
 // pair that comes within its separation plus the tolerance may be reported as a contact. Pairs of two linear
 // primitives are decided as, and cost what, the call on x_t0 and x_t1 does; where no vertex turns the answer
-// is that of that call, byte for byte. A pair with a part that turns is not proved to touch by a step, only by
-// an active set. Such a pair that starts within its separation blocks the step, also where the motion parts it; so does one
-// within a rigid body, which stays as close. The same bytes for any number of threads and any instruction
-// set.
-// Budgets and progress are of the whole call; max_checks is of a pair in one piece of time; of memory_limit,
-// 256 bytes are counted for each pair that one piece leaves undecided.
+// is that of that call, byte for byte. A pair with a part that turns is not proved to touch by a step, only
+// by an active set. Such a pair that starts within its separation blocks the step, also where the motion
+// parts it; so does one within a rigid body, which stays as close. The same bytes for any number of threads
+// and any instruction set. Budgets and progress are of the whole call; max_checks is of a pair in one piece
+// of time; of memory_limit, 256 bytes are counted for each pair that one piece leaves undecided.
 //
 // Throws std::invalid_argument as the call on positions, and for a trajectory of another number of vertices,
 // a static vertex that is not linear, a bound of straying below 0, and, where a vertex is not linear,
@@ -115,7 +114,7 @@ class ONSET_API RigidTrajectory final : public Trajectory {
 //
 // Example:
 //   onset::RigidTrajectory motion(x_t0, x_t1);
-//   motion.add_body(0, 500, {0, 0, 3}, {0, 0, 0}, {0, 0, 1});
+//   motion.add_body(0, x_t0.rows(), {0, 0, 3}, {0, 0, 0}, {0, 0, 1});
 //   x = motion.at(onset::compute_collision_free_stepsize(mesh, motion).step);
 //
 // Source: as for Trajectory.

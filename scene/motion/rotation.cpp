@@ -64,8 +64,8 @@ SineCosine sine_cosine(double x) {
   }
 }
 
-// The scale brings the largest coordinate into [1/2, 1): what underflows is below 2^-1000 of the sum. Squares,
-// sums and the root err by less than 4u.
+// The scale brings the largest coordinate into [1/2, 1): what underflows is below 2^-1000 of the sum.
+// Squares, sums and the root err by less than 4u.
 double length_up(double x, double y, double z) {
   const double largest = std::max({std::fabs(x), std::fabs(y), std::fabs(z)});
   if (!(largest > 0) || !std::isfinite(largest)) return std::fabs(x) + std::fabs(y) + std::fabs(z);
@@ -119,8 +119,7 @@ Orbit orbit_of(const Turn& turn, const double* p) {
 
 // The last two terms are products and angles that underflow.
 double rounding_of_turn(const Turn& turn, const Orbit& orbit, double t) {
-  const double sum =
-      orbit.size + 84 * (t * turn.angle) * orbit.distance + 5 * t * turn.translation_length;
+  const double sum = orbit.size + 84 * (t * turn.angle) * orbit.distance + 5 * t * turn.translation_length;
   return (kU * sum) * (1 + 0x1p-30) + 0x1p-1068 * orbit.distance + 0x1p-1050;
 }
 

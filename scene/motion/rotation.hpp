@@ -18,10 +18,10 @@ double length_up(double x, double y, double z);
 
 // A rotation by t |w| about w, with a translation by t d.
 struct Turn {
-  double axis[3];         // w / |w|, each within 4.5u of itself
-  double angle;           // |w| within 3.5u of itself, at most about 2^20
-  double translation[3];  // d
-  double centre[3];       // c
+  double axis[3];             // w / |w|, each within 4.5u of itself
+  double angle;               // |w| within 3.5u of itself, at most about 2^20
+  double translation[3];      // d
+  double centre[3];           // c
   double translation_length;  // |d| or more
 };
 // Makes the turn of a rotation vector that is not 0.

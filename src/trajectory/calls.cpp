@@ -49,9 +49,7 @@ class Call {
   ActiveSet active_set();
 
  private:
-  Positions at(const std::vector<double>& x) const {
-    return {x.data(), std::ptrdiff_t(x.size() / 3)};
-  }
+  Positions at(const std::vector<double>& x) const { return {x.data(), std::ptrdiff_t(x.size() / 3)}; }
   TurningAnswer turning(Collect collect, double until) {
     return refine({mesh_, *scene_, trajectory_, x0_, x1_, options_, collect, until}, budget_);
   }
@@ -213,8 +211,7 @@ ActiveSet Call::active_set() {
   set.outcome = setup.motion.status, set.vertex = setup.motion.bad_vertex;
   if (set.outcome != Outcome::free) return set;
   set.complete_until = INFINITY;
-  const TraversalResult traversal =
-      find_contacts(linear, setup, options_, Collect::all, budget_, set.stats);
+  const TraversalResult traversal = find_contacts(linear, setup, options_, Collect::all, budget_, set.stats);
   note_worst(mesh_, traversal, set.stats);
   fill_contacts(mesh_, setup.motion, options_.instruction_set, traversal.found, budget_.interruption(), set);
   if (turns_ && budget_.outcome() == Outcome::free)

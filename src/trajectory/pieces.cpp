@@ -83,8 +83,7 @@ Outcome Pieces::set(double t0, double t1, const std::vector<int>& vertices) {
   for (const int v : vertices) {
     const double bound = bound_[std::size_t(v)];
     if (bound < 0)
-      throw std::invalid_argument("the bound of straying of vertex " + std::to_string(v) +
-                                  " is below 0");
+      throw std::invalid_argument("the bound of straying of vertex " + std::to_string(v) + " is below 0");
     if (const Outcome o = classify(motion_.t0(v), motion_.t1(v), bound); o != Outcome::free) {
       bad_vertex_ = v;
       return o;

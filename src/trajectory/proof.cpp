@@ -28,8 +28,8 @@ double separation_of(const std::vector<double>& thickness, double min_separation
   return (min_separation + largest[0] + largest[1]) * (1 - 0x1p-51);
 }
 
-// The distance of the middles of the boxes, and how far a vertex is from its own at most, are no more than the
-// separation together.
+// The distance of the middles of the boxes, and how far a vertex is from its own at most, are no more than
+// the separation together.
 bool is_within(double separation, const Contact& contact, const PairBoxes& at) {
   if (separation == 0) return false;
   double x[4][3], strays[2] = {0, 0};

@@ -107,7 +107,8 @@ bool Refinement::prepare() {
   double largest = 0;
   for (const int v : q_.scene.filter->moving_vertices)
     for (int a = 0; a < 3; ++a)
-      largest = std::max({largest, std::fabs(pieces_.motion().t0(v)[a]), std::fabs(pieces_.motion().t1(v)[a])});
+      largest =
+          std::max({largest, std::fabs(pieces_.motion().t0(v)[a]), std::fabs(pieces_.motion().t1(v)[a])});
   std::vector<double> rounding(q_.scene.turning_vertices.size());
   q_.trajectory.straying(1, 1, q_.scene.turning_vertices.data(), rounding.size(), rounding.data());
   const double most = rounding.empty() ? 0 : *std::max_element(rounding.begin(), rounding.end());
@@ -241,8 +242,7 @@ std::vector<Pending> Refinement::sort_out(const std::vector<FoundPair>& found,
 bool Refinement::is_done(const FoundPair& f, const std::array<int, 4>& vertices, bool at_start) const {
   const double added = pieces_.added(vertices, f.kind);
   if (!pieces_.divisible()) return true;
-  return (!at_start && added <= 0.25 * a_.tolerance) ||
-         added <= 1.5 * pieces_.rounding(vertices, f.kind);
+  return (!at_start && added <= 0.25 * a_.tolerance) || added <= 1.5 * pieces_.rounding(vertices, f.kind);
 }
 
 // Reports the pairs that touch, or are within their separation, at the start, and keeps the others.
@@ -286,7 +286,7 @@ void Refinement::report(FoundPair f, double t, double share, double added) {
   PairResult& r = f.result;
   const bool at_start = t == 0;
   if (added > 0 || !at_start) {  // else it is what a look at the start found
-    r.outcome = at_start ? PairOutcome::below_rounding
+    r.outcome = at_start                               ? PairOutcome::below_rounding
                 : r.outcome == PairOutcome::max_checks ? PairOutcome::max_checks
                                                        : PairOutcome::contact;
     r.certainty = Certainty::within_tolerance;

@@ -82,8 +82,7 @@ class PieceKeys {
   PieceKeys(const MeshData& mesh, const std::vector<int>& body)
       : mesh_(mesh), body_(body), bodies_(count_bodies(mesh)), turns_(std::size_t(bodies_)) {
     for (std::size_t v = 0; v < body.size(); ++v)
-      if (body[v] != Trajectory::kLinear)
-        turns_[std::size_t(mesh.body.empty() ? 0 : mesh.body[v])] = true;
+      if (body[v] != Trajectory::kLinear) turns_[std::size_t(mesh.body.empty() ? 0 : mesh.body[v])] = true;
   }
 
   std::vector<PrimitiveKey> of(Primitive kind) const {
@@ -124,8 +123,7 @@ std::vector<int> bodies_of(const Mesh& mesh, const Trajectory& trajectory) {
   return body;
 }
 
-TurningScene::TurningScene(const Mesh& mesh, std::vector<int> bodies)
-    : body(std::move(bodies)) {
+TurningScene::TurningScene(const Mesh& mesh, std::vector<int> bodies) : body(std::move(bodies)) {
   const MeshData& data = mesh.data();
   for (std::size_t v = 0; v < body.size(); ++v) {
     if (body[v] == Trajectory::kLinear) continue;
@@ -139,7 +137,8 @@ TurningScene::TurningScene(const Mesh& mesh, std::vector<int> bodies)
     for (const int id : listed(data, kind)) {
       const int of = body_of(data, body, kind, id);
       (of == Trajectory::kLinear ? others : turning)[std::size_t(kind)].push_back(id);
-      if (of >= 0 && (!data.filter->keeps_apart() || data.filter->keys[std::size_t(kind)][std::size_t(id)].body == 0))
+      if (of >= 0 &&
+          (!data.filter->keeps_apart() || data.filter->keys[std::size_t(kind)][std::size_t(id)].body == 0))
         within[std::size_t(kind)].push_back(id), has_rest = true;
     }
   linear = Mesh(with_lists(data, others));
@@ -174,8 +173,7 @@ bool TurningScene::is_of_pieces(PairKind kind, IdPair pair) const {
 bool TurningScene::is_of_one_body(PairKind kind, IdPair pair) const {
   const std::array<int, 4> v = pair_vertices(*pieces, kind, pair);
   const int first = body[std::size_t(v[0])];
-  return first >= 0 &&
-         std::all_of(v.begin(), v.end(), [&](int w) { return body[std::size_t(w)] == first; });
+  return first >= 0 && std::all_of(v.begin(), v.end(), [&](int w) { return body[std::size_t(w)] == first; });
 }
 
 std::shared_ptr<TurningScene> take_turning_scene(const Mesh& mesh, std::vector<int> bodies) {

@@ -18,7 +18,8 @@ namespace onset {
 //
 // - linear: pairs of two linear primitives, which the linear pipeline decides in one step.
 // - rest: pairs within one rigid body, which stay as they are at the start.
-// - pieces: pairs with a primitive that turns, decided in pieces of time. Those within one rigid body are left
+// - pieces: pairs with a primitive that turns, decided in pieces of time. Those within one rigid body are
+// left
 //   out. So are those of two linear primitives, as far as body keys can say so: what is found of them is
 //   dropped (is_of_pieces).
 struct TurningScene {

@@ -26,7 +26,8 @@ inline void add_band(std::vector<Eigen::RowVector3i>& faces, int i, int j, int n
   }
 }
 
-inline scenes::Scene made_of(const std::vector<Eigen::RowVector3d>& x, const std::vector<Eigen::RowVector3i>& f) {
+inline scenes::Scene made_of(const std::vector<Eigen::RowVector3d>& x,
+                             const std::vector<Eigen::RowVector3i>& f) {
   scenes::Scene s;
   s.x_t0.resize(Eigen::Index(x.size()), 3), s.faces.resize(Eigen::Index(f.size()), 3);
   for (std::size_t i = 0; i < x.size(); ++i) s.x_t0.row(Eigen::Index(i)) = x[i];
@@ -41,7 +42,8 @@ inline scenes::Scene gear(const GearShape& g, double turned) {
   std::vector<Eigen::RowVector3d> x;
   std::vector<Eigen::RowVector3i> faces;
   const double share[4] = {-g.half_root, -g.half_tip, g.half_tip, g.half_root};
-  for (const auto& [outer, z] : {std::pair(true, 0.0), {true, g.thickness}, {false, g.thickness}, {false, 0.0}})
+  for (const auto& [outer, z] :
+       {std::pair(true, 0.0), {true, g.thickness}, {false, g.thickness}, {false, 0.0}})
     for (int t = 0; t < g.teeth; ++t)
       for (int k = 0; k < 4; ++k) {
         const double angle = turned + 2 * kPi * (t + share[k]) / g.teeth;
@@ -77,9 +79,10 @@ inline Gears gears(double first, double second) {
   const GearShape shape;
   const scenes::Scene a = gear(shape, 0);
   const scenes::Scene b = scenes::translated(gear(shape, kPi + kPi / shape.teeth), {2, 0, 0});
-  const scenes::Scene axles = scenes::joined(axle(0.38, shape.thickness),
-                                             scenes::translated(axle(0.38, shape.thickness), {2, 0, 0}));
-  Gears r{scenes::joined(scenes::joined(a, b), axles), RigidTrajectory(Eigen::MatrixXd(0, 3)), int(a.x_t0.rows())};
+  const scenes::Scene axles =
+      scenes::joined(axle(0.38, shape.thickness), scenes::translated(axle(0.38, shape.thickness), {2, 0, 0}));
+  Gears r{scenes::joined(scenes::joined(a, b), axles), RigidTrajectory(Eigen::MatrixXd(0, 3)),
+          int(a.x_t0.rows())};
   r.trajectory = RigidTrajectory(r.scene.x_t0);
   r.trajectory.add_body(0, r.gear_vertices, {0, 0, first}, {0, 0, 0}, {0, 0, 0});
   r.trajectory.add_body(r.gear_vertices, 2 * r.gear_vertices, {0, 0, second}, {0, 0, 0}, {2, 0, 0});

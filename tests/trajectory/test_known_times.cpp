@@ -41,7 +41,8 @@ void check(const Turned& s, double least, double exact) {
 
 }  // namespace
 
-TEST_CASE("times of a point and a point, a point and an edge, two edges, a point and a face", "[trajectory]") {
+TEST_CASE("times of a point and a point, a point and an edge, two edges, a point and a face",
+          "[trajectory]") {
   const Eigen::MatrixXi no_edges(0, 2), no_faces(0, 3);
   Eigen::MatrixXi edge(1, 2), edges(2, 2), face(1, 3);
   edge << 1, 2;

@@ -87,14 +87,20 @@ TEST_CASE("a turning vertex is stored within the bound of its rounding", "[traje
     const Case c = random_case(random);
     const RigidTrajectory trajectory = trajectory_of(c);
     const double t = integer(random, 0, 3) == 0 ? power_of_ten(random, -15, 0) : unit(random);
-    const Real error = length(difference(stored(trajectory, t), exact_position(c.motion, Real(t), c.p.data())));
-    const Turn turn = make_turn(c.motion.rotation.data(), c.motion.translation.data(), c.motion.centre.data());
+    const Real error =
+        length(difference(stored(trajectory, t), exact_position(c.motion, Real(t), c.p.data())));
+    const Turn turn =
+        make_turn(c.motion.rotation.data(), c.motion.translation.data(), c.motion.centre.data());
     const double bound = rounding_of_turn(turn, orbit_of(turn, c.p.data()), t);
     INFO("angle " << c.motion.rotation.norm() << ", t " << t);
     REQUIRE(error <= bound);
     // The bound that the header names.
-    REQUIRE(bound <= kU * (c.p.norm() + 84 * t * c.motion.rotation.norm() * (c.p - c.motion.centre).norm() +
-                           5 * t * c.motion.translation.norm()) * (1 + 0x1p-29) + 1e-300);
+    REQUIRE(bound <=
+            kU *
+                    (c.p.norm() + 84 * t * c.motion.rotation.norm() * (c.p - c.motion.centre).norm() +
+                     5 * t * c.motion.translation.norm()) *
+                    (1 + 0x1p-29) +
+                1e-300);
     closest = std::max(closest, double(error) / bound);
   }
   std::printf("rounding of a turning vertex: at most %.3f of its bound\n", closest);

@@ -47,7 +47,11 @@ RigidTrajectory turning(const Mesh& mesh, const Subject& s) {
 }
 void ask_turning_step(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
   const RigidTrajectory trajectory = turning(mesh, s);
-  a.add(trajectory.at(0.3)(0, 0), trajectory.num_vertices(), trajectory.body(0));
+  const int v = 0;
+  double x[3], strays;
+  trajectory.positions(0.3, &v, 1, x);
+  trajectory.straying(0.2, 0.3, &v, 1, &strays);
+  a.add(x[0], x[1], x[2], strays, trajectory.at(0.3)(0, 0), trajectory.num_vertices(), trajectory.body(0));
   a.add(compute_collision_free_stepsize(mesh, trajectory, o));
 }
 void ask_turning_free(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
