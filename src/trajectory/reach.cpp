@@ -18,10 +18,12 @@ struct Box {
   void add(const double* x) {
     for (std::size_t a = 0; a < 3; ++a) lo[a] = std::min(lo[a], x[a]), hi[a] = std::max(hi[a], x[a]);
   }
-  bool meets(const Box& o) const {
+  // A bit for each side of the box that x is beyond.
+  unsigned beyond(const double* x) const {
+    unsigned r = 0;
     for (std::size_t a = 0; a < 3; ++a)
-      if (hi[a] < o.lo[a] || o.hi[a] < lo[a]) return false;
-    return true;
+      r |= unsigned(x[a] < lo[a]) << (2 * a) | unsigned(x[a] > hi[a]) << (2 * a + 1);
+    return r;
   }
 };
 
@@ -40,9 +42,29 @@ std::vector<Box> boxes_of(const TurningScene& scene, const Motion& motion) {
 
 bool is_mixed(const TurningScene& scene, Primitive kind, int id) {
   const std::array<int, 3> v = primitive_vertices(*scene.pieces, kind, id);
-  return std::any_of(v.begin(), v.end(), [&](int w) {
-    return scene.body[std::size_t(w)] != scene.body[std::size_t(v[0])];
+  return std::any_of(v.begin(), v.end(),
+                     [&](int w) { return scene.body[std::size_t(w)] != scene.body[std::size_t(v[0])]; });
+}
+
+// Marks the primitives that are not beyond one side of a box with all vertices, at both ends.
+void mark(const TurningScene& scene, const Box& box, const std::vector<double>& x0,
+          const std::vector<double>& x1, std::vector<unsigned char>& beyond,
+          std::array<std::vector<char>, 3>& meets) {
+  parallel_ranges(beyond.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      beyond[v] = static_cast<unsigned char>(box.beyond(&x0[3 * v]) & box.beyond(&x1[3 * v]));
   });
+  for (const Primitive kind : kPrimitives) {
+    const std::vector<int>& ids = scene.others[std::size_t(kind)];
+    std::vector<char>& of_kind = meets[std::size_t(kind)];
+    parallel_ranges(ids.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const std::array<int, 3> v = primitive_vertices(*scene.pieces, kind, ids[i]);
+        const int out = beyond[std::size_t(v[0])] & beyond[std::size_t(v[1])] & beyond[std::size_t(v[2])];
+        of_kind[i] |= char(out == 0);
+      }
+    });
+  }
 }
 
 }  // namespace
@@ -74,20 +96,16 @@ std::array<std::vector<int>, 3> within_reach(const TurningScene& scene, const Mo
       box.lo[a] -= by, box.hi[a] += by;
       box.lo[a] -= std::fabs(box.lo[a]) * 0x1p-50, box.hi[a] += std::fabs(box.hi[a]) * 0x1p-50;
     }
+  std::array<std::vector<char>, 3> meets;
+  for (const Primitive kind : kPrimitives)
+    meets[std::size_t(kind)].resize(scene.others[std::size_t(kind)].size());
+  std::vector<unsigned char> beyond(x0.size() / 3);
+  for (const Box& box : boxes) mark(scene, box, x0, x1, beyond, meets);
   std::array<std::vector<int>, 3> near;
   for (const Primitive kind : kPrimitives) {
     const std::vector<int>& ids = scene.others[std::size_t(kind)];
-    std::vector<char> meets(ids.size());
-    parallel_ranges(ids.size(), kGrain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        Box box;
-        for (const int v : primitive_vertices(*scene.pieces, kind, ids[i]))
-          box.add(&x0[3 * std::size_t(v)]), box.add(&x1[3 * std::size_t(v)]);
-        for (const Box& turning : boxes) meets[i] = meets[i] || turning.meets(box);
-      }
-    });
     for (std::size_t i = 0; i < ids.size(); ++i)
-      if (meets[i]) near[std::size_t(kind)].push_back(ids[i]);
+      if (meets[std::size_t(kind)][i]) near[std::size_t(kind)].push_back(ids[i]);
   }
   return near;
 }

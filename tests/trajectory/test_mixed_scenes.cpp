@@ -111,16 +111,16 @@ TEST_CASE("pairs with vertices of several bodies are neither missed nor late", "
     }
     for (int v = 0; v < mesh.num_vertices(); ++v)
       for (int f = 0; f < mesh.num_faces(); ++f)
-        ask(mesh, s, set, {PairKind::vertex_face, v, f, {v, mesh.face(f)[0], mesh.face(f)[1], mesh.face(f)[2]}},
-            tally);
+        ask(mesh, s, set,
+            {PairKind::vertex_face, v, f, {v, mesh.face(f)[0], mesh.face(f)[1], mesh.face(f)[2]}}, tally);
     for (int e = 0; e < mesh.num_edges(); ++e)
       for (int g = e + 1; g < mesh.num_edges(); ++g)
         ask(mesh, s, set,
             {PairKind::edge_edge, e, g, {mesh.edge(e)[0], mesh.edge(e)[1], mesh.edge(g)[0], mesh.edge(g)[1]}},
             tally);
   }
-  std::printf("mixed scenes: %d contacts, %d missed, %d late, %d listed, %d left out by rules\n", tally.contacts,
-              tally.missed, tally.late, tally.listed, tally.left_out);
+  std::printf("mixed scenes: %d contacts, %d missed, %d late, %d listed, %d left out by rules\n",
+              tally.contacts, tally.missed, tally.late, tally.listed, tally.left_out);
   CHECK(tally.missed == 0);
   CHECK(tally.late == 0);
   CHECK(tally.contacts > 100);
