@@ -60,8 +60,7 @@ void mark(const TurningScene& scene, const Box& box, const std::vector<double>& 
     parallel_ranges(ids.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         const std::array<int, 3> v = primitive_vertices(*scene.pieces, kind, ids[i]);
-        const int out =
-            beyond[std::size_t(v[0])] & beyond[std::size_t(v[1])] & beyond[std::size_t(v[2])];
+        const int out = beyond[std::size_t(v[0])] & beyond[std::size_t(v[1])] & beyond[std::size_t(v[2])];
         of_kind[i] |= char(out == 0);
       }
     });
