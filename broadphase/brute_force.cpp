@@ -21,6 +21,7 @@ class BruteForce final : public BroadPhase {
 
   void refit(const BroadPhaseInput& input, const Stop& stop) override {
     test_ = input.test;
+    kinds_ = wanted_kinds(input);
     finite_ = input.motion.status == Outcome::free;
     ready_ = false;
     for (Primitive kind : kPrimitives)
@@ -29,7 +30,8 @@ class BruteForce final : public BroadPhase {
   }
 
   std::size_t blocks(PairKind kind) const override {
-    return !ready_ || !finite_ || boxes(second_primitive(kind)).ids.empty()
+    const bool wanted = std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
+    return !wanted || !ready_ || !finite_ || boxes(second_primitive(kind)).ids.empty()
                ? 0
                : (boxes(first_primitive(kind)).ids.size() + kRows - 1) / kRows;
   }
@@ -54,6 +56,7 @@ class BruteForce final : public BroadPhase {
   const MeshData& mesh_;
   BoxTest test_ = BoxTest::both_ends;
   bool finite_ = true;
+  std::vector<PairKind> kinds_;
   std::array<MotionBoxes, 3> boxes_;
 };
 
