@@ -22,7 +22,8 @@ class Plane(AppTest):
         result = self.json("step", *self.files, "--dim", 2)
         self.assertEqual(result["outcome"], "contact")
         self.assertTrue(0.571 < result["step"] < 4 / 7)
-        self.assertEqual(result["limiting"], {"kind": "ve", "a": 2, "b": 3, "vertices": [2, 3, 4, 4]})
+        limiting = {key: result["limiting"][key] for key in ("kind", "a", "b", "vertices")}
+        self.assertEqual(limiting, {"kind": "ve", "a": 2, "b": 3, "vertices": [2, 3, 4, 4]})
         self.assertIn("vertex 2 and edge 3 (vertices 3 4)", self.succeed("step", *self.files, "--dim", 2))
 
     def test_active_set_candidates_and_filters(self):
