@@ -44,7 +44,8 @@ struct StartFinding {
 struct StartReport {
   // As intersections() lists them; CollisionRules::excluded_intersections leaves them out.
   std::vector<Intersection> intersections;
-  // Pairs at distance exactly 0, by (kind, a, b); CollisionRules::excluded_pairs leaves them out.
+  // Pairs at distance exactly 0, by (kind, a, b); CollisionRules::excluded_pairs leaves them out. An edge and
+  // a face of theirs that touch are in `intersections` until CollisionRules::excluded_intersections has them.
   std::vector<Pair> touching;
   // 0 < distance <= separation (min_separation + thickness, in the norm asked for), or beyond that by no more
   // than rounding, by (kind, a, b).
@@ -93,6 +94,7 @@ struct StartReport {
 //   for (const onset::StartFinding& finding : report.findings) std::puts(finding.text.c_str());
 //   onset::CollisionRules rules = mesh.rules();
 //   rules.excluded_pairs = report.touching;  // these may pass through each other from now on
+//   rules.excluded_intersections = report.intersections;  // else check still lists their edges and faces
 //   mesh.set_rules(rules);
 ONSET_API StartReport check(const Mesh& mesh, const Positions& x, const Options& options = {});
 
