@@ -118,6 +118,7 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
     h.start.rounding = reported_rounding(h.rounding);
     const bool fits = h.setup->broad && h.fill(budget);
     h.start.outcome = budget.outcome();
+    if (h.start.outcome != Outcome::free) h.start.stats.looked_at = budget.done();
     if (fits || h.start.outcome != Outcome::free) h.setup->give_back_broad();
   });
 }

@@ -22,6 +22,12 @@ const char* what_it_is(mode_t mode) {
   return "is a device, a file expected";
 }
 
+// A file may be called "-", as long as it is there.
+bool is_stdin(const std::string& path, bool is_there) {
+  return (path == "-" && !is_there) || path == "/dev/stdin" || path == "/dev/fd/0" ||
+         path == "/proc/self/fd/0";
+}
+
 bool same(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
 
 [[noreturn]] void fail_at(const std::string& path, std::size_t line, const std::string& cause) {
@@ -44,7 +50,12 @@ std::size_t lines_of(std::string_view text) {
 // Not to wait for a pipe's other end: O_NONBLOCK.
 InputFile::InputFile(const std::string& path)
     : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
-  if (descriptor_ < 0) throw InputError(path + ": " + std::strerror(errno));
+  const int reason = errno;
+  if (is_stdin(path, descriptor_ >= 0)) {
+    if (descriptor_ >= 0) close(descriptor_);
+    throw InputError(path + ": stdin is not read: write what it gives into a file, and name that");
+  }
+  if (descriptor_ < 0) throw InputError(path + ": " + std::strerror(reason));
   const int error = fstat(descriptor_, &opened_) == 0 ? 0 : errno;
   if (error == 0 && S_ISREG(opened_.st_mode)) return;
   close(descriptor_);

@@ -49,12 +49,18 @@ Output& OutputFiles::open(const std::string& path) {
   return *found->file;
 }
 
+void OutputFiles::write_all() {
+  for (Entry& entry : entries_)
+    if (entry.is_open && entry.file->is_replaced_at_end()) entry.file->finish();
+  for (Entry& entry : entries_)
+    if (entry.is_open && !entry.file->is_replaced_at_end()) entry.file->flush();
+}
+
 void OutputFiles::publish() {
+  write_all();
   std::vector<Output*> unpublished;
   std::vector<std::pair<std::string, std::string>> names;
   for (Entry& entry : entries_) {
-    if (!entry.is_open || !entry.file->is_replaced_at_end()) continue;
-    entry.file->finish();
     if (entry.file->unpublished().empty()) continue;
     unpublished.push_back(entry.file.get());
     names.emplace_back(entry.file->unpublished(), entry.file->target().path);
@@ -62,8 +68,6 @@ void OutputFiles::publish() {
   if (const std::size_t done = publish_unfinished(names); done < names.size())
     throw InputError(unpublished[done]->target().name + ": cannot be written: " + std::strerror(errno));
   for (Output* file : unpublished) file->published();
-  for (Entry& entry : entries_)
-    if (entry.is_open) entry.file->flush();
 }
 
 }  // namespace app

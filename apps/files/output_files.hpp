@@ -19,8 +19,8 @@ class OutputFiles {
   void announce(const std::string& option, const std::string& path);
   // One that was announced; from now on it will be written.
   Output& open(const std::string& path);
-  // All that were opened take their places together, and what has none, pipes say, is flushed. May be called
-  // again after more is written to those.
+  // Once all that were opened are written, what has no place to take (pipes, devices, stdout) being flushed,
+  // the files take their places together.
   void publish();
 
  private:
@@ -36,6 +36,7 @@ class OutputFiles {
   };
   void check_inputs(const OutputTarget& target, const std::string& option) const;
   void check_others(const OutputTarget& target, const std::string& option) const;
+  void write_all();
   std::vector<Input> inputs_;
   std::vector<Entry> entries_;
 };

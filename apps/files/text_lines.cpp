@@ -78,7 +78,8 @@ std::string shown(std::string cause) {
 
 std::string quoted(std::string_view word) {
   constexpr std::size_t kLength = 60;
-  return "'" + std::string(word.substr(0, kLength)) + (word.size() > kLength ? "...'" : "'");
+  std::string text("'");
+  return text.append(word.substr(0, kLength)).append(word.size() > kLength ? "...'" : "'");
 }
 
 std::string quoted(const std::vector<std::string_view>& words) {

@@ -45,7 +45,8 @@ struct StartReport {
   // As intersections() lists them; CollisionRules::excluded_intersections leaves them out.
   std::vector<Intersection> intersections;
   // Pairs at distance exactly 0, vertices on a plane or behind it among them, by (kind, a, b);
-  // CollisionRules::excluded_pairs leaves them out.
+  // CollisionRules::excluded_pairs leaves them out. An edge and a face of theirs that touch are in
+  // `intersections` until CollisionRules::excluded_intersections has them.
   std::vector<Pair> touching;
   // 0 < distance <= the pair's separation (min_separation + thickness, or what CollisionRules say of it), or
   // beyond that by no more than rounding, by (kind, a, b).
@@ -94,6 +95,7 @@ struct StartReport {
 //   for (const onset::StartFinding& finding : report.findings) std::puts(finding.text.c_str());
 //   onset::CollisionRules rules = mesh.rules();
 //   rules.excluded_pairs = report.touching;  // these may pass through each other from now on
+//   rules.excluded_intersections = report.intersections;  // else check still lists their edges and faces
 //   mesh.set_rules(rules);
 ONSET_API StartReport check(const Mesh& mesh, const Positions& x, const Options& options = {});
 

@@ -88,6 +88,9 @@ struct Options {
   // steps takes a look at all pairs of neighbours, most of the cost of the whole call. compute_cfl_stepsize,
   // which is given their distances, has a bound instead of 0.
   //
+  // A vertex that is flung far away, as by a solver that diverged, makes nearly every pair a candidate: the
+  // call may take minutes. Give a limit in a loop.
+  //
   // Every call that has options looks at the clock in each of its phases: while boxes and trees are made,
   // every few pairs, also where all of them are in one place, and while what was found is put in order. It
   // returns after no more than what each thread is at, 16 pairs (none is broken off: tens of microseconds
@@ -108,7 +111,8 @@ struct Options {
   // 0: the call runs in the caller's oneTBB task arena, as it is; where onset is built without TBB, in as
   // many threads as the hardware has. n >= 1: in an arena of its own, of n threads at most. The answer is the
   // same bytes. Where oneTBB cannot make the first thread that a process wants, a call throws its
-  // std::runtime_error; 1 wants none.
+  // std::runtime_error; 1 wants none. Where n is more than there are cores, oneTBB itself may warn of it on
+  // stderr, once a process.
   int threads = 0;
 
   // With a separation > 0, contacts after the start are marked certain at level exact only, where a point of

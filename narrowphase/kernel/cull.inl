@@ -14,9 +14,9 @@ struct FloatPairs {
 // Moves the far end to t_max. A pair beyond d + reach until then is not reported earlier unless it spends its
 // checks, so the limiting pair stays the same. In double the lerp's 3u is far below float's rounding.
 template <class V, int K>
-inline void cut_short(V (&c)[2][K][3], V t_max) {
+inline void cut_short(const V (&c0)[K][3], V (&c1)[K][3], V t_max) {
   for (int k = 0; k < K; ++k)
-    for (int a = 0; a < 3; ++a) c[1][k][a] = lerp(c[0][k][a], c[1][k][a], t_max);
+    for (int a = 0; a < 3; ++a) c1[k][a] = lerp(c0[k][a], c1[k][a], t_max);
 }
 
 // The rows in the lanes: consecutive ones, whose addresses need less arithmetic, or a list.
@@ -58,7 +58,7 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
     Points<D4> p;
     gather(pairs, rows.from(4 * half), p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
-    if (pairs.cull_t_max < 1) cut_short(lanes[half], D4::all(pairs.cull_t_max));
+    if (pairs.cull_t_max < 1) cut_short(lanes[half][0], lanes[half][1], D4::all(pairs.cull_t_max));
   }
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < K; ++k)
@@ -86,7 +86,7 @@ inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& 
   }
   for (int end = 0; end < 2; ++end) corners_of(p[end], out.c[end]);
   const bool is_cut = pairs.cull_t_max < 1;
-  if (is_cut) cut_short(out.c, V::all(static_cast<float>(pairs.cull_t_max)));
+  if (is_cut) cut_short(out.c[0], out.c[1], V::all(static_cast<float>(pairs.cull_t_max)));
   out.d = float_separation(pairs, rows);
   const V of_positions = K == 3 ? of_vertex[0] + max(of_vertex[1], max(of_vertex[2], of_vertex[3]))
                                 : max(of_vertex[0], of_vertex[1]) + max(of_vertex[2], of_vertex[3]);

@@ -3,9 +3,10 @@
 import csv
 import io
 import json
+import subprocess
 import unittest
 
-from support import END, FACES, START, AppTest, obj
+from support import BINARY, END, FACES, START, AppTest, obj
 
 CLEAN, BAD, NOT_CLEAN = 0, 1, 3
 BASE = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
@@ -37,6 +38,8 @@ class Check(AppTest):
     def say(self, *arguments):
         done = self.run_app("check", *arguments)
         self.assertEqual((done.returncode, done.stderr), (NOT_CLEAN, ""))
+        for of_the_library in ["rules.", "Options::", "Mesh("]:
+            self.assertNotIn(of_the_library, done.stdout)
         return done.stdout
 
     def faults(self, result):
@@ -58,6 +61,8 @@ class Check(AppTest):
         self.assertEqual({tuple(p["vertices"][2:]) for p in result["intersecting"]}, {(0, 1, 2)})
         said = self.say(path)
         self.assertIn("a step cannot start here", said)
+        self.assertIn("3 edge-face pairs intersect (3 crossing), first edge", said)
+        self.assertIn("on the command line: no option leaves them out: move them apart\n", said)
         for end in [4, 5, 6]:
             self.assertRegex(said, rf"edge \d+ \(vertices 3 {end}\) goes through face 0 \(vertices 0 1 2\)")
 
@@ -88,7 +93,7 @@ class Check(AppTest):
         self.assertEqual(result["copied_vertices"], [[1, 3], [2, 5]])
         self.assertNotIn("copies_that_part", result)
         said = self.say(a)
-        for words in ["vertices 1 and 3 are at one place", "vertices 2 and 5 are at one place", "--weld", "rules.weld"]:
+        for words in ["vertices 1 and 3 are at one place", "vertices 2 and 5 are at one place", "--weld, where they are the copies of a seam"]:
             self.assertIn(words, said)
         for end, together, parting in [(b, [[1, 3], [2, 5]], []), (torn, [[1, 3]], [[2, 5]])]:
             result = self.check(NOT_CLEAN, a, end)
@@ -188,6 +193,16 @@ class Check(AppTest):
         result = self.check(NOT_CLEAN, path, "--time-limit", "0")
         self.assertEqual((result["outcome"], result["acceptable"]), ("out_of_time", False))
         self.assertIn("not known: out_of_time", self.say(path, "--time-limit", "0"))
+
+    def test_stdin_is_not_read(self):
+        words = ["stdin is not read", "file"]
+        for path in ["-", "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"]:
+            self.must_fail(BAD, [path + ": ", *words], "check", path)
+            self.must_fail(BAD, [path + ": ", *words], "queries", path, "--kind", "vf")
+        with open(self.write("a.obj", obj(START, FACES))) as given:
+            done = subprocess.run([BINARY, "check", "/dev/stdin"], stdin=given, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (BAD, ""))
+        self.assertIn(words[0], done.stderr)
 
     def test_usage(self):
         path = self.write("a.obj", obj(START, FACES))

@@ -131,6 +131,19 @@ class Failures(OutputTest):
             self.assertEqual((done.returncode, done.stderr.count(b"\n")), (BAD, 1), done.stderr)
             self.assertIn(b"stdout", done.stderr)
 
+    def test_full_devices_keep_the_files(self):
+        """What goes to a device has to be there before any file takes its place; only the summary may fail later."""
+        a, b = self.soup()
+        for command in [("step", a, b), ("active-set", a, b), ("candidates", a, b), ("queries", self.query)]:
+            for one, other in [("--csv", "--json"), ("--json", "--csv")]:
+                with self.all_kept("out"):
+                    self.must_fail(BAD, ["/dev/full", "No space left"], *command, one, "/dev/full", other, "out")
+                    with open("/dev/full", "w") as full:
+                        done = self.start(*command, one, "-", other, "out", stdout=full)
+                        error = done.communicate(timeout=60)[1]
+                    self.assertEqual((done.returncode, error.count(b"\n")), (BAD, 1), error)
+                    self.assertIn(b"stdout: cannot be written: No space left", error)
+
     def test_closed_standard_files(self):
         """What is opened next must not get the number of stdout, and the summary with it."""
         close = lambda *numbers: lambda: [os.close(n) for n in numbers]

@@ -128,6 +128,18 @@ class Small(AppTest):
         self.assertIn("1 vertex-face", self.succeed("active-set", self.a, self.b))
         self.assertIn("candidates", self.succeed("candidates", self.a, self.b))
 
+    def test_what_is_said_where_nothing_was_looked_at(self):
+        for command in ["step", "active-set", "candidates"]:
+            for limit in ["--time-limit", "--check-limit"]:
+                if (command, limit) == ("candidates", "--check-limit"):
+                    continue  # which spends none
+                said = self.succeed(command, self.a, self.b, limit, "0")
+                self.assertIn("outcome     out_of_" + limit[2:].split("-")[0], said)
+                self.assertNotIn("t = ", said)
+                self.assertNotIn("()", said)
+        self.assertIn("touches     not known", self.succeed("step", self.a, self.b, "--time-limit", "0"))
+        self.assertIn("outcome     free", self.succeed("candidates", self.a, self.b))
+
     def test_results_in_files(self):
         shown = self.succeed("active-set", self.a, self.b, "--json", "out.json", "--csv", "out.csv")
         self.assertIn("1 vertex-face", shown)

@@ -1,7 +1,8 @@
 // A run of many steps, as of a process that lives for months: memory and handles stay, no call grows slower,
 // nothing ever intersects, and the same bytes come out each time, for any number of threads.
 //
-//   soak [STEPS]      10000 by default; of each of four runs. Ends with 1 where anything is not so.
+//   soak [STEPS]      10000 by default, a multiple of 1000, 2000 at least; of each of four runs. Ends with 1
+//                     where anything is not so.
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -182,8 +183,12 @@ void repeat_call(int threads) {
 
 int main(int argc, char** argv) {
   const std::int64_t steps = argc > 1 ? std::atoll(argv[1]) : 10000;
-  if (steps < 10 * Cloth::kLife || steps % (10 * Cloth::kLife) != 0) {
-    std::fprintf(stderr, "soak: a multiple of %d steps\n", 10 * Cloth::kLife);
+  constexpr std::int64_t kTenLives = 10 * Cloth::kLife;
+  if (steps < 2 * kWarm || steps % kTenLives != 0) {
+    std::fprintf(stderr,
+                 "soak: STEPS has to be a multiple of %" PRId64 ", and %" PRId64
+                 " at least: what follows is held against the first %" PRId64 "\n",
+                 kTenLives, 2 * kWarm, kWarm);
     return 2;
   }
   for (const int threads : {2, 4}) repeat_call(threads);

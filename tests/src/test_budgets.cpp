@@ -70,6 +70,7 @@ void check_spent(const Case& c, const Options& o, Outcome why) {
   const LineSearchStep search = c.line_search(o);
   CHECK(search.step == 0);
   CHECK(search.outcome == why);
+  CHECK(search.stats.looked_at == 0);
 }
 
 }  // namespace

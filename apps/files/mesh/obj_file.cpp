@@ -83,7 +83,7 @@ class ObjReader {
     ++skipped_;
     if (named_.size() >= kNamed || has(named_, keyword)) return;
     named_.emplace_back(keyword);
-    keywords_ += " " + quoted(keyword) + (named_.size() == kNamed ? " ..." : "");
+    keywords_.append(" ").append(quoted(keyword)).append(named_.size() == kNamed ? " ..." : "");
   }
 
   // x y z, then nothing, a weight, a colour, or both; or x y, for z = 0.

@@ -46,8 +46,11 @@ Json candidates_json(const onset::Candidates& c) {
 }
 
 std::string summary(const onset::Candidates& c) {
-  return format("candidates  %s\nseconds     %.3g (%s)\n", describe(c.counts).c_str(), c.stats.seconds_total,
-                c.stats.broad_phase);
+  std::string text = format("outcome     %s\n", outcome_name(c.outcome));
+  if (c.vertex >= 0) text += format("vertex      %d\n", c.vertex);
+  text += format("candidates  %s\nseconds     %.3g", describe(c.counts).c_str(), c.stats.seconds_total);
+  const std::string method = c.stats.broad_phase;  // none where the call ended before there was one
+  return text + (method.empty() ? "\n" : " (" + method + ")\n");
 }
 
 }  // namespace

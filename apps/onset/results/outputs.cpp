@@ -15,16 +15,13 @@ void Outputs::announce(const std::string& option, const std::string& path) {
   if (path == "-") has_summary_ = false;
 }
 
-// Files are complete before anything more goes to a pipe, whose reader may have gone.
+// Files are complete before the summary goes to a pipe, whose reader may have gone.
 void Outputs::finish(Json json, const std::string& summary) {
   std::string said;
   for (const std::string& note : notes_) said += "note        " + note + "\n";
   if (!notes_.empty()) json["notes"] = notes_;
-  if (!json_.empty()) {
-    Output& file = files_.open(json_);
-    if (!file.is_replaced_at_end()) files_.publish();
-    file.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  }
+  if (!json_.empty())
+    files_.open(json_).write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   files_.publish();
   if (json_.empty() && !has_summary_) std::fputs(said.c_str(), stderr);
   if (!has_summary_) return;

@@ -178,12 +178,27 @@ std::string describe(const onset::PairCounts& c) {
   return text;
 }
 
+// Where the call ended before all pairs were looked at, any of them may touch at any time.
+static std::string describe_touch(const onset::StepResult& r) {
+  switch (r.outcome) {
+    case onset::Outcome::non_finite:
+    case onset::Outcome::out_of_range:
+    case onset::Outcome::out_of_time:
+    case onset::Outcome::out_of_memory:
+    case onset::Outcome::out_of_checks:
+    case onset::Outcome::cancelled:
+      return "touches     not known\n";
+    default:
+      return std::isfinite(r.toi) ? format("touches     t = %.17g, on the exact motion\n", r.toi)
+                                  : "touches     never\n";
+  }
+}
+
 std::string describe_step(const onset::StepResult& r) {
   std::string text = format("outcome     %s\nstep        %.17g\nlimited by  %s\n", outcome_name(r.outcome),
                             r.step, r.limiting ? describe(*r.limiting).c_str() : "none");
   if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
-  text += std::isfinite(r.toi) ? format("touches     t = %.17g, on the exact motion\n", r.toi)
-                               : "touches     never\n";
+  text += describe_touch(r);
   return text + format("rounding    %.3g, what storing the end of the step may change\n", r.rounding);
 }
 

@@ -10,21 +10,35 @@ namespace {
 
 constexpr std::size_t kShown = 10;
 
-// What the command line has for it, after the call that the library names; empty for nothing.
+// What the command line has for it; the library's text ends with the calls of C++.
 const char* flag_for(onset::StartFault fault) {
   switch (fault) {
+    case onset::StartFault::intersecting:
+      return "no option leaves them out: move them apart";
     case onset::StartFault::touching:
       return "--touching-may-pass-through, where they touch from the right side";
     case onset::StartFault::within_separation:
       return "--min-separation, a smaller one";
     case onset::StartFault::copied_vertices:
       return "--weld, where they are the copies of a seam";
+    case onset::StartFault::faces_without_area:
+      return "no option leaves them out: they are taken for the segments that they are";
     case onset::StartFault::unused_vertices:
-      return "lines 'p' of an OBJ file declare points";
-    default:
-      return "";
+      return "lines 'p' of an OBJ file declare points, else they meet faces only";
   }
+  return "";
 }
+
+// Copies make whole neighbourhoods touch.
+std::string cure(const onset::StartReport& report, onset::StartFault fault) {
+  const bool by_copies = !report.copied_vertices.empty() &&
+                         (fault == onset::StartFault::intersecting || fault == onset::StartFault::touching);
+  return std::string(flag_for(fault)) +
+         (by_copies ? "; copied vertices make many of these: --weld, where they are the copies of a seam"
+                    : "");
+}
+
+std::string what_is_found(const std::string& text) { return text.substr(0, text.find(": ")); }
 
 std::string in_words(const onset::Intersection& p) {
   const char* verb = p.kind == onset::IntersectionKind::crossing   ? "goes through"
@@ -133,9 +147,8 @@ std::string describe(const StartFindings& f) {
         r.acceptable() ? "a step may start here, with what follows in mind\n" : "a step cannot start here\n";
   if (r.vertex >= 0) text += format("vertex      %d\n", r.vertex);
   for (const onset::StartFinding& finding : r.findings) {
-    text += "\n" + finding.text + "\n" + describe_list(f, finding.fault);
-    if (const std::string flag = flag_for(finding.fault); !flag.empty())
-      text += "  on the command line: " + flag + "\n";
+    text += "\n" + what_is_found(finding.text) + "\n" + describe_list(f, finding.fault);
+    text += "  on the command line: " + cure(r, finding.fault) + "\n";
   }
   return text + format("\nseconds     %.3g\n", r.seconds);
 }
@@ -149,7 +162,7 @@ Json to_json(const StartFindings& f) {
     json["findings"].push_back({{"fault", onset::to_string(finding.fault)},
                                 {"count", finding.count},
                                 {"text", finding.text},
-                                {"command_line", flag_for(finding.fault)}});
+                                {"command_line", cure(r, finding.fault)}});
   json["intersecting"] = list_json(r.intersections);
   json["touching"] = Json::array();
   for (const onset::Pair& p : r.touching) json["touching"].push_back(app::to_json(p));
