@@ -104,7 +104,8 @@ class Truncation {
     parallel_ranges(groups.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (; first < last; ++first) {
         if (first % 16 == 0 && budget_.spent()) return;
-        const Cut cut = cut_group(setup.motion, limits_, planes, of_groups.begin(first), of_groups.end(first));
+        const Cut cut =
+            cut_group(setup.motion, limits_, planes, of_groups.begin(first), of_groups.end(first));
         for (const int* v = groups.begin(first); v != groups.end(first); ++v) put(setup.motion, *v, cut);
       }
     });

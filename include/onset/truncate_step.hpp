@@ -28,8 +28,9 @@ struct TruncateOptions : Options {
 };
 
 struct TruncatedStep {
-  // x y z of each vertex (in the plane x y), as many as the mesh has: `Positions(p.data(), #V, dimension())`. What is safe to store, as it
-  // is: exactly x_t1 where nothing limits the vertex, and exactly x_t0 where it may not move.
+  // x y z of each vertex (in the plane x y), as many as the mesh has: `Positions(p.data(), #V, dimension())`.
+  // What is safe to store, as it is: exactly x_t1 where nothing limits the vertex, and exactly x_t0 where it
+  // may not move.
   std::vector<double> positions;
   // The same as a change of x_t0. x_t0 + displacement, rounded to doubles, is `positions` but for the last
   // bit of vertices that go all their way, and as safe.
@@ -65,13 +66,11 @@ struct TruncatedStep {
 // counts as one go together, and so do all of a rigid body, by one share. The same bytes for any number of
 // threads and any instruction set.
 //
-// x_t0, x_t1: #V x 3 (in the plane #V x 2), model length, the two ends of a linear motion; x_t0 is assumed to be free of
-// intersections (check() in onset/check.hpp tells).
-// options: separation, budgets, gap_share, d_hat. Accuracy, check_limit and touching_may_pass_through are not
-// used; memory_limit counts 104 bytes a pair that may limit a vertex.
-// Throws std::invalid_argument for a wrong number of rows or columns, a static vertex that moves, options out
-// of range.
-// Safe to call concurrently on one Mesh.
+// x_t0, x_t1: #V x 3 (in the plane #V x 2), model length, the two ends of a linear motion; x_t0 is assumed to
+// be free of intersections (check() in onset/check.hpp tells). options: separation, budgets, gap_share,
+// d_hat. Accuracy, check_limit and touching_may_pass_through are not used; memory_limit counts 104 bytes a
+// pair that may limit a vertex. Throws std::invalid_argument for a wrong number of rows or columns, a static
+// vertex that moves, options out of range. Safe to call concurrently on one Mesh.
 //
 // Source: planes in proportion to the approach, and truncation of each vertex at its planes, are those of
 // "Divide and Truncate: A Penetration and Inversion Free Framework for Coupled Multi-physics Systems",

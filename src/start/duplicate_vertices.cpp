@@ -116,7 +116,7 @@ std::vector<std::vector<int>> shared_places(const Positions& x, const Stop& stop
 std::vector<std::array<int, 2>> duplicate_vertices(const Positions& x) {
   const FloatEnvironment environment;
   if (x.cols() != 3 && x.cols() != 2)
-    throw std::invalid_argument("x has " + std::to_string(x.cols()) + " columns, not 3");
+    throw std::invalid_argument("x has " + std::to_string(x.cols()) + " columns, not 2 or 3");
   for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
     for (int a = 0; a < x.cols(); ++a)
       if (!std::isfinite(x(v, a)))

@@ -72,9 +72,7 @@ class Cutting {
  private:
   int vertex(const Entry& e) const { return limits_[e.limit].pair.vertices[e.place]; }
   bool is_first(const Entry& e) const { return e.place < points_of_first_side(limits_[e.limit].pair.kind); }
-  bool is_of_mesh(const Entry& e) const {
-    return limits_[e.limit].pair.kind == PairKind::vertex_plane;
-  }
+  bool is_of_mesh(const Entry& e) const { return limits_[e.limit].pair.kind == PairKind::vertex_plane; }
   bool keeps_side(const Entry& e, const double* x) const {
     if (is_of_mesh(e)) return planes_.keeps(limits_[e.limit], x);
     return on_side(limits_[e.limit].plane, is_first(e), x);

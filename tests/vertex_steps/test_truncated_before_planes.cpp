@@ -25,7 +25,9 @@ Plane plane_below(const NearScene& near, double gap, scenes::Random& random) {
   return plane;
 }
 
-RowVector3d row(const std::vector<double>& x, std::size_t v) { return {x[3 * v], x[3 * v + 1], x[3 * v + 2]}; }
+RowVector3d row(const std::vector<double>& x, std::size_t v) {
+  return {x[3 * v], x[3 * v + 1], x[3 * v + 2]};
+}
 
 }  // namespace
 
@@ -39,7 +41,8 @@ TEST_CASE("no vertex goes behind a plane on the way to what is stored", "[oracle
     CollisionRules rules = near.scene.mesh().rules();
     for (int p = 0; p <= i % 2; ++p)
       rules.planes.push_back(plane_below(
-          near, scenes::integer(random, 0, 9) == 0 ? 0 : size * scenes::power_of_ten(random, -16, -1), random));
+          near, scenes::integer(random, 0, 9) == 0 ? 0 : size * scenes::power_of_ten(random, -16, -1),
+          random));
     Mesh mesh = near.scene.mesh();
     mesh.set_rules(rules);
     CAPTURE(i, near.options.min_separation, near.options.gap_share);
@@ -48,8 +51,9 @@ TEST_CASE("no vertex goes behind a plane on the way to what is stored", "[oracle
       const PlaneTruth truth(rules.planes[p], near.options.min_separation, near.options.norm);
       for (std::size_t v = 0; v < std::size_t(mesh.num_vertices()); ++v) {
         CAPTURE(p, v, r.share[v]);
-        const RowVector3d x0 = near.scene.x_t0.row(Eigen::Index(v)), x1 = near.scene.x_t1.row(Eigen::Index(v)),
-                          end = row(r.positions, v), sum = x0 + row(r.displacements, v);
+        const RowVector3d x0 = near.scene.x_t0.row(Eigen::Index(v)),
+                          x1 = near.scene.x_t1.row(Eigen::Index(v)), end = row(r.positions, v),
+                          sum = x0 + row(r.displacements, v);
         const Rational start = truth.value(x0);
         if (oracle::sign(start) <= 0) {
           ++touching;
@@ -67,14 +71,16 @@ TEST_CASE("no vertex goes behind a plane on the way to what is stored", "[oracle
       }
     }
   }
-  std::printf("%d scenes: %zu vertices stopped before a plane, %zu touch at the start, %zu start within, %zu move\n",
-              count, stopped, touching, within, moved);
+  std::printf(
+      "%d scenes: %zu vertices stopped before a plane, %zu touch at the start, %zu start within, %zu move\n",
+      count, stopped, touching, within, moved);
   CHECK(stopped > std::size_t(count) / 4);
   CHECK(touching > 0);
   CHECK(within > 0);
 }
 
-TEST_CASE("a vertex that falls on a plane goes nearly all of its way there, others all of theirs", "[truncate_step]") {
+TEST_CASE("a vertex that falls on a plane goes nearly all of its way there, others all of theirs",
+          "[truncate_step]") {
   Eigen::MatrixXd x(2, 3), x_new(2, 3);
   x << 0, 0, 1, 5, 0, 1;
   x_new << 0, 0, -1, 5, 0, 2;

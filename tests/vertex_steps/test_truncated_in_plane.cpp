@@ -20,8 +20,8 @@ TEST_CASE("no vertex meets an edge on the way to what is stored in the plane", "
   double kept = 0;
   for (int i = 0; i < count; ++i) {
     scenes::Random random(oracle::fuzz_seed() * 9000011 + std::uint64_t(i));
-    const PlaneScene scene = polygons(3, scenes::power_of_ten(random, -2, 0.5), random,
-                                      scenes::power_of_ten(random, -9, 9));
+    const PlaneScene scene =
+        polygons(3, scenes::power_of_ten(random, -2, 0.5), random, scenes::power_of_ten(random, -9, 9));
     const Mesh mesh = scene.mesh();
     const TruncatedStep r = truncate_step(mesh, scene.x_t0, scene.x_t1);
     REQUIRE(r.positions.size() == 2 * std::size_t(mesh.num_vertices()));
@@ -44,7 +44,8 @@ TEST_CASE("no vertex meets an edge on the way to what is stored in the plane", "
           for (std::size_t k = 0; k < 3; ++k) q.t0[k] = at(k, from), q.t1[k] = at(k, to);
           return plane_truth(q).collides;
         };
-        const bool meet = meets(0, 7) || meets(0, 1) || meets(1, 7) || meets(0, 6) || meets(6, 7) || meets(2, 7);
+        const bool meet =
+            meets(0, 7) || meets(0, 1) || meets(1, 7) || meets(0, 6) || meets(6, 7) || meets(2, 7);
         met_then += meet;
         CHECK_FALSE(meet);
       }

@@ -278,7 +278,7 @@ TEST_CASE("among many vertices only those at one place are copies", "[unit]") {
     x(kCount - 1, axis) = 7;
     CHECK((duplicate_vertices(x) == std::vector<std::array<int, 2>>{{6, kCount - 1}}));
   }
-  CHECK_THROWS_WITH(duplicate_vertices(x.leftCols(2)), "x has 2 columns, not 3");
+  CHECK_THROWS_WITH(duplicate_vertices(x.leftCols(1)), "x has 1 columns, not 2 or 3");
 
   // It can be stopped wherever it asks, in every round over the vertices.
   x.bottomRows(kCount / 2) = x.topRows(kCount / 2);

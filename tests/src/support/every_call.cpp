@@ -35,6 +35,20 @@ void ask_free(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
   a.add(is_step_collision_free(mesh, s.scene.x_t0, s.scene.x_t1, o));
 }
 
+// A mesh without the rules that are not for bodies that turn.
+Mesh that_may_turn(const Mesh& mesh) {
+  CollisionRules rules = mesh.rules();
+  if (rules.planes.empty() && rules.body_separations.empty() && rules.rest_positions.size() == 0) return mesh;
+  const auto is_of_plane = [](const Pair& p) { return p.kind == PairKind::vertex_plane; };
+  auto& pairs = rules.excluded_pairs;
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_of_plane), pairs.end());
+  rules.planes.clear(), rules.body_separations.clear();
+  rules.rest_positions.resize(0, 3);
+  Mesh plain = mesh;
+  plain.set_rules(rules);
+  return plain;
+}
+
 // The first component turns, unless it is static, and all others go where they would.
 RigidTrajectory turning(const Mesh& mesh, const Subject& s) {
   RigidTrajectory trajectory(s.scene.x_t0, s.scene.x_t1);
@@ -52,13 +66,13 @@ void ask_turning_step(const Mesh& mesh, const Subject& s, const Options& o, Answ
   trajectory.positions(0.3, &v, 1, x);
   trajectory.straying(0.2, 0.3, &v, 1, &strays);
   a.add(x[0], x[1], x[2], strays, trajectory.at(0.3)(0, 0), trajectory.num_vertices(), trajectory.body(0));
-  a.add(compute_collision_free_stepsize(mesh, trajectory, o));
+  a.add(compute_collision_free_stepsize(that_may_turn(mesh), trajectory, o));
 }
 void ask_turning_free(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
-  a.add(is_step_collision_free(mesh, turning(mesh, s), o));
+  a.add(is_step_collision_free(that_may_turn(mesh), turning(mesh, s), o));
 }
 void ask_turning_set(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
-  a.add(construct_active_set(mesh, turning(mesh, s), o));
+  a.add(construct_active_set(that_may_turn(mesh), turning(mesh, s), o));
 }
 
 void ask_active_set(const Mesh& mesh, const Subject& s, const Options& o, Answer& a) {
