@@ -9,9 +9,9 @@ namespace onset::tests {
 
 using oracle::Rational;
 
-class PlaneTruth {
+class HalfSpaceTruth {
  public:
-  PlaneTruth(const Plane& plane, double separation, Norm norm) : offset_(plane.offset) {
+  HalfSpaceTruth(const Plane& plane, double separation, Norm norm) : offset_(plane.offset) {
     Rational sum = 0, squares = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       normal_[a] = Rational(plane.normal[a]);

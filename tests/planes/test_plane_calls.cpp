@@ -64,7 +64,7 @@ TEST_CASE("close pairs, starts and intersections have the planes that exact arit
     std::vector<std::array<int, 2>> expected_touching, expected_within, within;
     for (int v = 0; v < s.x_t0.rows(); ++v)
       for (std::size_t p = 0; p < s.rules.planes.size(); ++p) {
-        const PlaneTruth truth(s.rules.planes[p], s.options.min_separation, s.options.norm);
+        const HalfSpaceTruth truth(s.rules.planes[p], s.options.min_separation, s.options.norm);
         const Rational f = truth.value(s.x_t0.row(v));
         if (oracle::sign(f) <= 0)
           expected_touching.push_back({v, int(p)});
@@ -73,7 +73,7 @@ TEST_CASE("close pairs, starts and intersections have the planes that exact arit
         const auto at = std::find_if(close.begin(), close.end(), [&](const ClosePair& c) {
           return c.kind == PairKind::vertex_plane && c.a == v && c.b == int(p);
         });
-        const PlaneTruth near(s.rules.planes[p], s.options.min_separation + d_hat, Norm::euclidean);
+        const HalfSpaceTruth near(s.rules.planes[p], s.options.min_separation + d_hat, Norm::euclidean);
         INFO("vertex " << v << " and plane " << p << ", d_hat " << d_hat);
         if (near.side(f) < 0) CHECK(at != close.end());
         if (at == close.end()) continue;

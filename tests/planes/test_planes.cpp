@@ -32,7 +32,7 @@ struct Case {
   const PlaneScene& scene;
   int v;
   std::size_t p;
-  PlaneTruth truth;
+  HalfSpaceTruth truth;
   PlaneWay way;
 
   Case(const PlaneScene& s, int vertex, std::size_t plane)
@@ -122,8 +122,8 @@ std::string broken(const Case& c, const StepResult& r, double s) {
 
 // Whether a pair starts apart by more than so much.
 bool has_room(const Case& c, double room) {
-  const PlaneTruth wider(c.scene.rules.planes[c.p], c.scene.options.min_separation + room,
-                         c.scene.options.norm);
+  const HalfSpaceTruth wider(c.scene.rules.planes[c.p], c.scene.options.min_separation + room,
+                             c.scene.options.norm);
   return wider.side(c.way.start) > 0;
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("no vertex goes behind a plane on the way to what is stored", "[oracle
     CAPTURE(i, near.options.min_separation, near.options.gap_share);
     const TruncatedStep r = truncate_step(mesh, near.scene.x_t0, near.scene.x_t1, near.options);
     for (std::size_t p = 0; p < rules.planes.size(); ++p) {
-      const PlaneTruth truth(rules.planes[p], near.options.min_separation, near.options.norm);
+      const HalfSpaceTruth truth(rules.planes[p], near.options.min_separation, near.options.norm);
       for (std::size_t v = 0; v < std::size_t(mesh.num_vertices()); ++v) {
         CAPTURE(p, v, r.share[v]);
         const RowVector3d x0 = near.scene.x_t0.row(Eigen::Index(v)),
