@@ -170,7 +170,9 @@ void ask_vertex_map(const Mesh& mesh, const Subject& s, const Options&, Answer& 
   a.add(map.num_dofs(), map.positions(s.scene.x_t0), map.rounding(s.scene.x_t0, s.scene.x_t1));
   a.add(assemble_constraints(s.set, 0, map), map.constraints(assemble_constraints(s.set)));
   a.add(map.to_dofs(Eigen::VectorXd(Eigen::VectorXd::Constant(3 * n, 0.1))));
-  a.add(Eigen::MatrixXd(map.to_dofs(map.matrix())));
+  const Eigen::SparseMatrix<double> hessian = map.to_dofs(map.matrix());
+  a.add(std::vector<double>(hessian.valuePtr(), hessian.valuePtr() + hessian.nonZeros()),
+        std::vector<int>(hessian.innerIndexPtr(), hessian.innerIndexPtr() + hessian.nonZeros()));
 }
 
 // A tetrahedron on each face, all with one tip.
