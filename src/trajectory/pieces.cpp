@@ -27,11 +27,25 @@ Outcome classify(const double* from, const double* to, double bound) {
 
 }  // namespace
 
+Motion standing_still(const std::vector<double>& x0) {
+  Motion motion;
+  motion.num_vertices = int(x0.size() / 3);
+  motion.x = AlignedArray<double>(x0.size() / 3 * kMotionStride);
+  for (std::size_t v = 0; v < x0.size() / 3; ++v) {
+    double* x = motion.x.data() + v * kMotionStride;
+    x[3] = x[7] = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double from = x0[3 * v + a];
+      x[a] = x[4 + a] = std::fabs(from) <= kMaxCoordinate ? from : 0;
+    }
+  }
+  return motion;
+}
+
 Pieces::Pieces(TurningScene& scene, const Trajectory& trajectory, const std::vector<double>& x0,
                const std::vector<double>& x1)
     : scene_(scene), trajectory_(trajectory), x0_(x0), x1_(x1), bound_(x0.size() / 3) {
-  motion_.num_vertices = int(x0.size() / 3);
-  motion_.x = AlignedArray<double>(x0.size() / 3 * kMotionStride);
+  motion_ = standing_still(x0);
   scene.pieces->thickness.assign(x0.size() / 3, 0);
 }
 

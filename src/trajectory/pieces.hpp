@@ -11,6 +11,10 @@
 
 namespace onset {
 
+// All vertices where they start: rows of a motion of which a piece sets some, while a broad phase takes
+// samples of all. Coordinates that are not usable are 0.
+Motion standing_still(const std::vector<double>& x0);
+
 // All of it is of the vertices that `set` was given last.
 class Pieces {
  public:

@@ -247,18 +247,9 @@ bool Refinement::is_done(const FoundPair& f, const std::array<int, 4>& vertices,
 
 // Reports the pairs that touch, or are within their separation, at the start, and keeps the others.
 void Refinement::look_at_start(std::vector<Pending>& pairs) {
-  Motion rest;
-  rest.num_vertices = pieces_.motion().num_vertices;
-  rest.x = AlignedArray<double>(std::size_t(rest.num_vertices) * kMotionStride);
+  const Motion rest = standing_still(q_.x0);
   PairList list;
-  for (const Pending& p : pairs) {
-    list.of(p.kind).push_back(p.pair);
-    for (const int v : pair_vertices(data(), p.kind, p.pair)) {
-      double* x = rest.x.data() + std::size_t(v) * kMotionStride;
-      for (int a = 0; a < 3; ++a) x[a] = x[4 + a] = q_.x0[3 * std::size_t(v) + std::size_t(a)];
-      x[3] = x[7] = 0;
-    }
-  }
+  for (const Pending& p : pairs) list.of(p.kind).push_back(p.pair);
   std::vector<double> thickness = q_.scene.thickness;
   q_.scene.pieces->thickness.swap(thickness);
   Options options = options_;
