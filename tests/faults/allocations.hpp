@@ -1,4 +1,5 @@
-// A memory that runs out where a test says so: operator new of the whole program, in all of its forms.
+// A memory that is never empty where nobody wrote, and runs out where a test says so: operator new of the
+// whole program, in all of its forms.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,9 @@ namespace onset::tests {
 
 // Blocks that were made and not freed, by any thread.
 std::int64_t live_blocks();
+// Whether there are at most so many, now or within a second: a worker that was among the last may free what
+// it had of a task a little after the call has returned.
+bool no_more_blocks_than(std::int64_t most);
 
 // Which allocations fail:
 // - once: one.

@@ -44,8 +44,8 @@ int reports(const Call& call, const Subject& subject, int threads) {
 
 // What a call that only says yes or no says where it does not know.
 bool is_safe_answer(const Call& call, const Answer& answer) {
-  return call.name == std::string("is_step_collision_free") ? answer == Answer().add(false)
-                                                            : answer == Answer().add(true);
+  const bool asks_for_free = std::string(call.name).rfind("is_step_collision_free", 0) == 0;
+  return answer == Answer().add(!asks_for_free);
 }
 
 struct Enough {
@@ -83,7 +83,7 @@ TEST_CASE("a call may be cancelled at every report", "[faults]") {
         options.progress = nullptr;
         REQUIRE(call(mesh, subject, options) == expected);
       }
-      REQUIRE(live_blocks() == before);
+      REQUIRE(no_more_blocks_than(before));
     }
   });
   std::printf("%d calls cancelled\n", cancelled);
@@ -120,7 +120,7 @@ TEST_CASE("an exception may leave a call at every report", "[faults]") {
         options.progress = nullptr;
         REQUIRE(call(mesh, subject, options) == expected);
       }
-      REQUIRE(live_blocks() == before);
+      REQUIRE(no_more_blocks_than(before));
     }
   });
   std::printf("%d exceptions left a call\n", thrown);
