@@ -108,7 +108,6 @@ inline F8 to_float(D4 lo, D4 hi) {
 
 // These work bit by bit.
 inline F8 operator&(F8 a, F8 b) { return {_mm256_and_ps(a.v, b.v)}; }
-inline F8 operator|(F8 a, F8 b) { return {_mm256_or_ps(a.v, b.v)}; }
 // Takes a where the sign bit of `sign` is set, else b.
 inline F8 where_negative(F8 sign, F8 a, F8 b) { return {_mm256_blendv_ps(b.v, a.v, sign.v)}; }
 // Bit i of the result is the sign bit of lane i.

@@ -129,9 +129,6 @@ inline int sign_bits(const I8& a) { return sign_bits(a.lo) | sign_bits(a.hi) << 
 inline F8 operator&(const F8& a, const F8& b) {
   return {(Float4)((Int4)a.lo & (Int4)b.lo), (Float4)((Int4)a.hi & (Int4)b.hi)};
 }
-inline F8 operator|(const F8& a, const F8& b) {
-  return {(Float4)((Int4)a.lo | (Int4)b.lo), (Float4)((Int4)a.hi | (Int4)b.hi)};
-}
 // Takes a where the sign bit of `sign` is set, else b.
 inline F8 where_negative(const F8& sign, const F8& a, const F8& b) {
   return {(Int4)sign.lo < 0 ? a.lo : b.lo, (Int4)sign.hi < 0 ? a.hi : b.hi};

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "broadphase/bvh/float_boxes.hpp"
+#include "broadphase/bvh/hilbert_table.hpp"
 #include "broadphase/bvh/space_curve.hpp"
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
@@ -87,6 +88,23 @@ TEST_CASE("the Hilbert curve visits every cell once and moves by one cell at a t
     const int steps =
         std::abs(a % m - b % m) + std::abs(a / m % m - b / m % m) + std::abs(a / m / m - b / m / m);
     REQUIRE(steps == 1);
+  }
+}
+
+TEST_CASE("in each state the Hilbert curve goes through the eight octants by their faces", "[unit]") {
+  const HilbertTable table = make_hilbert_table();
+  for (const std::array<std::uint8_t, 8>& state : table.next) {
+    std::array<int, 8> octant;
+    octant.fill(-1);
+    for (int o = 0; o < 8; ++o) {
+      CHECK(state[std::size_t(o)] / 8 < int(table.next.size()));
+      octant[std::size_t(state[std::size_t(o)] % 8)] = o;
+    }
+    for (std::size_t place = 0; place < 8; ++place) REQUIRE(octant[place] >= 0);
+    for (std::size_t place = 1; place < 8; ++place) {
+      const int changed = octant[place - 1] ^ octant[place];
+      CHECK((changed == 1 || changed == 2 || changed == 4));
+    }
   }
 }
 

@@ -21,4 +21,7 @@ struct PackInputs {
 PackResults pack_operations_scalar(const PackInputs& in);
 PackResults pack_operations_avx2(const PackInputs& in);
 
+// Whether the table of base/simd/lane_table.hpp that the compiler made is the one made now.
+bool lane_table_is_made_again();
+
 }  // namespace onset::tests

@@ -119,6 +119,10 @@ TEST_CASE("the power of two brings a value into [1, 2)", "[unit]") {
   }
 }
 
+TEST_CASE("the table of lanes is made at run time as by the compiler", "[unit]") {
+  CHECK(lane_table_is_made_again());
+}
+
 #else
 TEST_CASE("this build has one kind of pack", "[simd]") { SUCCEED(); }
 #endif
