@@ -1,5 +1,6 @@
 #include "tests/faults/allocations.hpp"
 
+#include <malloc.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -12,7 +13,7 @@
 namespace onset::tests {
 namespace {
 
-std::atomic<std::int64_t> blocks{0}, count_{0}, first_failing{0}, last_failing{0};
+std::atomic<std::int64_t> blocks{0}, bytes{0}, most_bytes{0}, count_{0}, first_failing{0}, last_failing{0};
 std::atomic<bool> armed{false}, owner_waits{false}, failed_{false}, failed_elsewhere{false};
 std::atomic<pthread_t> owner{};
 
@@ -45,6 +46,9 @@ void* allocate(std::size_t size, std::size_t alignment) {
                           : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (block != nullptr) {
     ++blocks;
+    const std::int64_t now = bytes += std::int64_t(malloc_usable_size(block));
+    for (std::int64_t most = most_bytes; now > most && !most_bytes.compare_exchange_weak(most, now);) {
+    }
     std::memset(block, what_was_there(), size);
   }
   return block;
@@ -57,12 +61,14 @@ void* allocate_or_throw(std::size_t size, std::size_t alignment = 0) {
 void release(void* block) {
   if (block == nullptr) return;
   --blocks;
+  bytes -= std::int64_t(malloc_usable_size(block));
   std::free(block);
 }
 
 }  // namespace
 
 std::int64_t live_blocks() { return blocks; }
+std::int64_t most_bytes_since() { return most_bytes.exchange(bytes); }
 bool no_more_blocks_than(std::int64_t most) {
   for (int i = 0; i < 1000 && blocks > most; ++i) usleep(1000);
   return blocks <= most;

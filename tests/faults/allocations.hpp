@@ -8,6 +8,8 @@ namespace onset::tests {
 
 // Blocks that were made and not freed, by any thread.
 std::int64_t live_blocks();
+// The most bytes, those that malloc rounds up to, that all blocks had together since the last call of this.
+std::int64_t most_bytes_since();
 // Whether there are at most so many, now or within a second: a worker that was among the last may free what
 // it had of a task a little after the call has returned.
 bool no_more_blocks_than(std::int64_t most);
