@@ -6,7 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "base/radix_sort.hpp"
-#include "broadphase/bvh/hilbert_table.hpp"
+#include "base/hilbert_table.hpp"
 
 namespace onset {
 namespace {
