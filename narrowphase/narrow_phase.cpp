@@ -89,8 +89,23 @@ void NarrowPhase::gather_separations(PairKind kind, const IdPair* pairs, std::si
           separation_of_pair(in_.mesh, in_.options, in_.rest, kind, pairs[i], &scratch.vertices[4 * i]);
     return;
   }
-  if (in_.mesh.thickness.empty()) return;
   const int first_side = points_of_first_side(kind);
+  if (in_.straying != nullptr) {  // five sums: rounded up
+    const auto largest = [](const std::vector<double>& of, const int* first, const int* last) {
+      double r = 0;
+      for (; first != last && !of.empty(); ++first) r = std::max(r, of[std::size_t(*first)]);
+      return r;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      double& sum = scratch.separation[i];
+      const int *v = &scratch.vertices[4 * i], *middle = v + first_side, *end = v + 4;
+      for (const std::vector<double>* of : {&in_.straying->thickness, &in_.straying->bounds})
+        sum += largest(*of, v, middle) + largest(*of, middle, end);
+      sum *= 1 + 0x1p-50;
+    }
+    return;
+  }
+  if (in_.mesh.thickness.empty()) return;
   for (std::size_t i = 0; i < count; ++i) {  // two sums: rounded up
     const int* v = &scratch.vertices[4 * i];
     scratch.separation[i] = (in_.options.min_separation + thickest(in_.mesh, v, v + first_side) +

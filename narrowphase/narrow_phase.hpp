@@ -20,6 +20,13 @@ struct PairPredicate {
   bool (*holds)(const void* context, PairKind kind, IdPair pair);
 };
 
+// How far the vertices stray from the motion. The separation of a pair is widened by the largest of each
+// primitive, beside their thickness.
+struct Straying {
+  const std::vector<double>& thickness;  // in place of the mesh's; empty: none
+  const std::vector<double>& bounds;     // of each vertex, model length
+};
+
 struct NarrowPhaseInput {
   const MeshData& mesh;
   const Motion& motion;
@@ -38,6 +45,8 @@ struct NarrowPhaseInput {
   const PairPredicate* contacts = nullptr;
   // What the shape at rest leaves of separations; null: all.
   const RestLimits* rest = nullptr;
+  // null: vertices do not stray. Other rules than thickness have no separations then.
+  const Straying* straying = nullptr;
   // Separations are Options::min_separation and thickness, whatever the bodies.
   bool ignores_bodies = false;
 

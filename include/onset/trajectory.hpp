@@ -44,7 +44,8 @@ class ONSET_API Trajectory {
   // Writes a bound, model length, >= 0, for each of `count` vertices that are not linear: at each t in
   // [t0, t1], 0 <= t0 <= t1 <= 1, x(t) and X(t) are no farther, in the Euclidean norm, from the point at t of
   // the chord, X(t0) + (t - t0) / (t1 - t0) (X(t1) - X(t0)) in real arithmetic. Rounding is included: with
-  // t0 = t1 it is all that there is. The bound should fall with the square of t1 - t0, else calls are slow.
+  // t0 = t1 it is all that there is, and of a vertex of a rigid body what it is at t0 = t1 = 1 must hold at
+  // all times. The bound should fall with the square of t1 - t0, else calls are slow.
   virtual void straying(double t0, double t1, const int* vertices, std::size_t count,
                         double* bounds) const = 0;
 
@@ -103,7 +104,8 @@ class ONSET_API RigidTrajectory final : public Trajectory {
 // primitives are decided as, and cost what, the call on x_t0 and x_t1 does; where no vertex turns the answer
 // is that of that call, byte for byte. A pair with a part that turns is not proved to touch by a step, only
 // by an active set. Such a pair that starts within its separation blocks the step, also where the motion
-// parts it; so does one within a rigid body, which stays as close. The same bytes for any number of threads
+// parts it; so does one within a rigid body, which stays as close, and one there that is apart by less than
+// what storing can change (below_rounding). The same bytes for any number of threads
 // and any instruction set. Budgets and progress are of the whole call; max_checks is of a pair in one piece
 // of time; of memory_limit, 256 bytes are counted for each pair that one piece leaves undecided.
 //

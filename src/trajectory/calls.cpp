@@ -65,7 +65,8 @@ class Call {
   TurningAnswer turning(Collect collect, double until) {
     return refine({mesh_, *scene_, trajectory_, x0_, x1_, options_, collect, until}, budget_);
   }
-  std::vector<FoundPair> touching_in_bodies(Stats& stats);
+  std::vector<FoundPair> in_bodies(Stats& stats);
+  std::vector<FoundPair> within_separation(const std::vector<double>& thickness, Stats& stats);
   void add_turning(const Motion& rest, ActiveSet& set);
 
   const Mesh& mesh_;
@@ -107,9 +108,9 @@ Stats stats_of(const Mesh& mesh, const TurningAnswer& answer) {
   return stats;
 }
 
-// Pairs within a rigid body stay as far apart as they are: those that are a contact are one at once.
-std::vector<FoundPair> Call::touching_in_bodies(Stats& stats) {
-  if (!scene_->has_rest) return {};
+// Pairs within a rigid body that start within their separation, of a mesh with this thickness.
+std::vector<FoundPair> Call::within_separation(const std::vector<double>& thickness, Stats& stats) {
+  scene_->rest_data->thickness = thickness;
   Options options = options_;
   options.window = INFINITY;
   Stats of_these;
@@ -118,10 +119,31 @@ std::vector<FoundPair> Call::touching_in_bodies(Stats& stats) {
   const auto is_other = [&](const FoundPair& f) { return !scene_->is_of_one_body(f.kind, f.result.pair); };
   std::vector<FoundPair>& found = traversal.found;
   found.erase(std::remove_if(found.begin(), found.end(), is_other), found.end());
-  for (FoundPair& f : found) f.result.toi = f.result.step_limit = 0;
+  for (FoundPair& f : found)
+    f.result.toi = f.result.step_limit = 0, f.result.outcome = PairOutcome::initial_contact;
   of_these.contacts = {};
   add(of_these, stats);
   return std::move(found);
+}
+
+// Pairs within a rigid body stay as far apart as they are, but for the rounding of what is stored: those that
+// are a contact are one at once, and so are those that rounding may make one (docs/trajectories.md, S5).
+std::vector<FoundPair> Call::in_bodies(Stats& stats) {
+  if (!scene_->has_rest) return {};
+  std::vector<FoundPair> near = within_separation(scene_->widened_at_rest(trajectory_), stats);
+  if (near.empty() || budget_.outcome() != Outcome::free) return {};
+  const std::vector<FoundPair> contacts = within_separation(scene_->thickness, stats);
+  auto contact = contacts.begin();
+  for (FoundPair& f : near) {
+    while (contact != contacts.end() && before(*contact, f)) ++contact;
+    if (contact != contacts.end() && !before(f, *contact)) {
+      f = *contact;
+      continue;
+    }
+    f.result.outcome = PairOutcome::below_rounding, f.result.certainty = Certainty::within_tolerance;
+    f.result.toi_hi = INFINITY;
+  }
+  return near;
 }
 
 void stop_at(const Pair& pair, double t, Outcome outcome, StepResult& r) {
@@ -144,10 +166,16 @@ StepResult Call::step(Collect collect) {
   r.stats.filter_counts = mesh_.filter_counts();
   if (!turns_ || budget_.outcome() != Outcome::free || r.vertex >= 0) return r;
   if (collect == Collect::any && r.toi <= 1) return r;
-  const std::vector<FoundPair> touching = touching_in_bodies(r.stats);
-  if (!touching.empty()) {
-    stop_at(to_pair(mesh_, touching[0]), 0, Outcome::initial_contact, r);
-    r.certainty = touching[0].result.certainty, r.toi_hi = touching[0].result.toi_hi;
+  const std::vector<FoundPair> near = in_bodies(r.stats);
+  if (!near.empty()) {
+    const auto is_contact = [](const FoundPair& f) {
+      return f.result.outcome == PairOutcome::initial_contact;
+    };
+    const auto contact = std::find_if(near.begin(), near.end(), is_contact);
+    const FoundPair& first = contact != near.end() ? *contact : near[0];
+    stop_at(to_pair(mesh_, first), 0,
+            contact != near.end() ? Outcome::initial_contact : Outcome::below_rounding, r);
+    r.certainty = first.result.certainty, r.toi_hi = first.result.toi_hi;
   }
   const TurningAnswer answer = turning(collect, std::min(r.toi, 1.0));
   add(stats_of(mesh_, answer), r.stats);
@@ -199,8 +227,9 @@ void cut_off(const Options& options, ActiveSet& set) {
 // Adds the contacts of pairs with a part that turns, and within rigid bodies.
 void Call::add_turning(const Motion& rest, ActiveSet& set) {
   ActiveSet at_rest;
-  const std::vector<FoundPair> touching = touching_in_bodies(set.stats);
-  fill_contacts(mesh_, rest, options_, touching, budget_.interruption(), at_rest);
+  const std::vector<FoundPair> near = in_bodies(set.stats);
+  fill_contacts(mesh_, rest, options_, near, budget_.interruption(), at_rest);
+  for (Contact& c : at_rest.contacts) c.outcome = PairOutcome::initial_contact;
   set.contacts.insert(set.contacts.end(), at_rest.contacts.begin(), at_rest.contacts.end());
   double until = 1;
   if (const Contact* first = set.earliest()) until = std::min(until, first->toi + options_.window);
@@ -235,9 +264,10 @@ ActiveSet Call::active_set() {
     set.complete_until = 0;
     set.stats.looked_at = budget_.done();
   }
-  set.stats.contacts = {};
+  if (turns_) set.stats.contacts = {};
   for (const Contact& c : set.contacts)
-    ++(c.kind == PairKind::vertex_face ? set.stats.contacts.vertex_face : set.stats.contacts.edge_edge);
+    if (turns_)
+      ++(c.kind == PairKind::vertex_face ? set.stats.contacts.vertex_face : set.stats.contacts.edge_edge);
   if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
   set.stats.seconds_total = clock.seconds();
   return set;

@@ -107,7 +107,6 @@ Outcome Pieces::set(double t0, double t1, const std::vector<int>& vertices) {
   std::vector<double>& thickness = scene_.pieces->thickness;
   for (const int v : vertices) {
     const std::size_t i = std::size_t(v);
-    if (!scene_.thickness.empty()) bound_[i] = largest_;
     thickness[i] = scene_.thickness.empty() ? bound_[i] : (scene_.thickness[i] + largest_) * (1 + 0x1p-51);
   }
   return Outcome::free;

@@ -25,13 +25,16 @@ class Pieces {
   // Makes the chords of [t0, t1] and the thickness of scene.pieces. Returns what is wrong with a position, or
   // with a bound; bad_vertex() is the first. Throws std::invalid_argument for a bound below 0.
   //
-  // Pairs whose chords keep their separation and both thicknesses keep their separation, truly and as stored:
-  // a point of a primitive strays no farther than the vertex that strays most. Where vertices have a
-  // thickness of their own all get the largest bound, since the thickest need not be the one that strays.
+  // Pairs whose chords keep their separation, both thicknesses and both of the largest bounds keep their
+  // separation, truly and as stored: a point of a primitive strays no farther than the vertex that strays
+  // most. Boxes have the thickness of scene.pieces: where vertices have one of their own all get the largest
+  // bound there, since the thickest need not be the one that strays.
   Outcome set(double t0, double t1, const std::vector<int>& vertices);
   int bad_vertex() const { return bad_vertex_; }
 
   const Motion& motion() const { return motion_; }
+  // Of each vertex: how far it strays.
+  const std::vector<double>& bounds() const { return bound_; }
   double t0() const { return t0_; }
   double t1() const { return t1_; }
   // Returns a time that is not later than t0 + share (t1 - t0), and before it unless that is t0.

@@ -51,7 +51,7 @@ class Refinement {
       double length = 1;
       for (double t0 = 0; t0 < 1 && t0 <= until_ && !ended(); t0 += length) length = piece(t0, length);
     }
-    if (ended()) a_.complete_until = std::min(a_.complete_until, 0.0);
+    if (ended() && a_.outcome != Outcome::out_of_memory) a_.complete_until = std::min(a_.complete_until, 0.0);
     return std::move(a_);
   }
 
@@ -101,7 +101,7 @@ bool Refinement::prepare() {
   if (!set(0, 1, q_.scene.filter->moving_vertices)) return false;
   const Extents extents =
       corner_extents(data(), pieces_.motion(), largest_separation(q_.mesh.data(), options_));
-  a_.extent = extents.largest();
+  a_.extent = extents.largest() + pieces_.largest_bound();  // a whole turn has chords without length
   a_.tolerance = absolute_tolerance(options_, a_.extent);
   options_.tolerance = std::max(0.25 * a_.tolerance, 0x1p-1074);
   double largest = 0;
@@ -148,6 +148,8 @@ void Refinement::decide_all() {
 // Decides pairs on the piece that is set: one more than memory has room for, so that it is noticed.
 TraversalResult Refinement::decide(const PairSource& pairs) {
   NarrowPhaseInput input{data(), pieces_.motion(), *options_.tolerance, a_.extent, options_};
+  const Straying straying{q_.scene.thickness, pieces_.bounds()};
+  input.straying = &straying;
   const std::size_t most = most_contacts(options_);
   TraversalBounds bounds;
   if (options_.memory_limit < std::numeric_limits<std::int64_t>::max()) bounds.most = most + 1;
@@ -276,6 +278,7 @@ void Refinement::look_at_start(std::vector<Pending>& pairs) {
 void Refinement::report(FoundPair f, double t, double share, double added) {
   PairResult& r = f.result;
   const bool at_start = t == 0;
+  if (r.outcome == PairOutcome::initial_separating) r.outcome = PairOutcome::initial_contact;
   if (added > 0 || !at_start) {  // else it is what a look at the start found
     r.outcome = at_start                               ? PairOutcome::below_rounding
                 : r.outcome == PairOutcome::max_checks ? PairOutcome::max_checks

@@ -142,7 +142,8 @@ TurningScene::TurningScene(const Mesh& mesh, std::vector<int> bodies) : body(std
         within[std::size_t(kind)].push_back(id), has_rest = true;
     }
   linear = Mesh(with_lists(data, others));
-  rest = Mesh(with_lists(data, within));
+  rest_data = with_lists(data, within);
+  rest = Mesh(rest_data);
   pieces = with_lists(data, turning);
   filter = std::make_shared<PrimitiveFilter>(*pieces->filter);
   const PieceKeys keys(data, body);
@@ -162,6 +163,21 @@ void TurningScene::list(const Lists& near) {
     filter->moving[k] = merged(turning[k], near[k]);
   }
   filter->moving_vertices = vertices_of(*pieces, filter->moving);
+}
+
+std::vector<double> TurningScene::widened_at_rest(const Trajectory& trajectory) const {
+  std::vector<int> rigid;
+  for (const int v : turning_vertices)
+    if (body[std::size_t(v)] >= 0) rigid.push_back(v);
+  std::vector<double> strays(rigid.size()), widened = thickness;
+  trajectory.straying(1, 1, rigid.data(), rigid.size(), strays.data());
+  widened.resize(body.size());
+  const double most = strays.empty() ? 0 : *std::max_element(strays.begin(), strays.end());
+  for (std::size_t i = 0; i < rigid.size(); ++i) {
+    double& of = widened[std::size_t(rigid[i])];
+    of = thickness.empty() ? strays[i] : (of + most) * (1 + 0x1p-51);
+  }
+  return widened;
 }
 
 bool TurningScene::is_of_pieces(PairKind kind, IdPair pair) const {

@@ -32,6 +32,8 @@ struct TurningScene {
   std::vector<int> turning_vertices;
   Mesh linear, rest;
   bool has_rest = false;
+  // That of `rest`. Its thickness is that of one question.
+  std::shared_ptr<MeshData> rest_data;
   // Its thickness and lists are those of one piece, and of one call; `filter` is its filter.
   std::shared_ptr<MeshData> pieces;
   std::shared_ptr<PrimitiveFilter> filter;
@@ -42,6 +44,9 @@ struct TurningScene {
 
   // Lets only these of `others` take part in the pieces.
   void list(const std::array<std::vector<int>, 3>& near);
+  // The mesh's thickness, and with it what storing vertices of rigid bodies can bring them closer: the
+  // largest of each primitive's sum is at least the sum of its largest.
+  std::vector<double> widened_at_rest(const Trajectory& trajectory) const;
   // Whether a pair has a vertex that is not linear.
   bool is_of_pieces(PairKind kind, IdPair pair) const;
   // Whether all vertices of a pair are in one rigid body.

@@ -1,0 +1,176 @@
+// Where trajectories start close: within a body, within a separation, beside what stands.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <onset/onset.hpp>
+
+#include "tests/catch.hpp"
+#include "tests/fuzz.hpp"
+#include "tests/scenes/random.hpp"
+
+namespace onset::tests {
+namespace {
+
+using Eigen::MatrixXd;
+using scenes::Random;
+using scenes::uniform;
+
+Eigen::RowVector3d any(Random& random, double size) {
+  return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
+}
+
+Eigen::MatrixXi triangles(int count) {
+  Eigen::MatrixXi faces(count, 3);
+  for (int i = 0; i < count; ++i) faces.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
+  return faces;
+}
+
+// A triangle, and a corner of another one within a few u of it.
+MatrixXd nearly_touching(Random& random) {
+  MatrixXd x(6, 3);
+  Eigen::RowVector3d n;
+  do {
+    for (int v = 0; v < 3; ++v) x.row(v) = any(random, 1);
+    const Eigen::RowVector3d a = x.row(1) - x.row(0), b = x.row(2) - x.row(0);
+    n = a.cross(b);
+  } while (n.norm() < 0.3);
+  n.normalize();
+  x.row(3) = (x.row(0) + x.row(1) + x.row(2)) / 3 + n * uniform(random, 0, 3e-16);
+  x.row(4) = x.row(3) + n + any(random, 0.3), x.row(5) = x.row(3) + n + any(random, 0.3);
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("a rigid body that is nearly touched by itself is never stored through itself", "[trajectory]") {
+  Random random(811);
+  int started = 0, moved = 0;
+  for (int i = 0; i < fuzz(2000); ++i) {
+    const MatrixXd x = nearly_touching(random);
+    const Mesh mesh(x, triangles(2));
+    if (has_intersections(mesh, x)) continue;
+    ++started;
+    RigidTrajectory t(x);
+    t.add_body(0, 6, any(random, 3).transpose(), any(random, 1).transpose(), {0, 0, 0});
+    const StepResult r = compute_collision_free_stepsize(mesh, t);
+    const ActiveSet set = construct_active_set(mesh, t);
+    REQUIRE(is_step_collision_free(mesh, t) == (r.outcome == Outcome::free));
+    REQUIRE(set.empty() == (r.outcome == Outcome::free));
+    if (r.step == 0) {
+      REQUIRE((r.outcome == Outcome::below_rounding || r.outcome == Outcome::initial_contact));
+      REQUIRE((r.limiting && set.earliest()->toi == 0));
+      continue;
+    }
+    ++moved;
+    REQUIRE_FALSE(has_intersections(mesh, t.at(r.step)));
+  }
+  CHECK(started > fuzz(1000));
+  // Far enough from itself it goes.
+  MatrixXd x = nearly_touching(random);
+  x.bottomRows(3).rowwise() += 1e-13 * (x.row(4) - x.row(3));
+  RigidTrajectory t(x);
+  t.add_body(0, 6, {0, 1, 0}, {1, 0, 0}, {0, 0, 0});
+  CHECK(compute_collision_free_stepsize(Mesh(x, triangles(2)), t).step == 1);
+}
+
+TEST_CASE("what starts within its separation is an initial contact in every call on a trajectory",
+          "[trajectory]") {
+  MatrixXd x(6, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 0.1, 0.3, 0.2, 1, 0.2, 0.3, 1;
+  const Mesh mesh(x, triangles(2));
+  Options o;
+  o.min_separation = 0.2;
+  for (const int first : {0, 3}) {  // one body, or one that turns away from what stands
+    RigidTrajectory t(x);
+    t.add_body(first, 6, {0, 0, 1}, {0, 0, 0.5}, {0.2, 0.2, 0});
+    CHECK(compute_collision_free_stepsize(mesh, t, o).outcome == Outcome::initial_contact);
+    const ActiveSet set = construct_active_set(mesh, t, o);
+    REQUIRE(set.size() > 0);
+    for (const Contact& c : set)
+      CHECK((c.outcome == PairOutcome::initial_contact && c.toi == 0 && c.step_limit == 0));
+  }
+}
+
+TEST_CASE("a window changes no time along a trajectory, with thickness neither", "[trajectory]") {
+  Random random(812);
+  constexpr int kCount = 6;
+  for (int scene = 0; scene < fuzz(30); ++scene) {
+    MatrixXd x(3 * (kCount + 1), 3);
+    x.topRows(3) << -100, -100, 0, 200, -100, 0, -100, 200, 0;
+    for (int k = 1; k <= kCount; ++k) {
+      const double radius = std::pow(10, uniform(random, -2, 0)), height = uniform(random, 0.2, 0.7);
+      x.middleRows(3 * k, 3) << 5 * k + radius, 0, height, 5 * k + radius + 0.1, 0, height + 1, 5 * k + radius,
+          0.1, height + 1;
+    }
+    RigidTrajectory t(x);
+    for (int k = 1; k <= kCount; ++k)
+      t.add_body(3 * k, 3 * k + 3, any(random, 1).transpose(), {0, 0, -1}, {5.0 * k, 0, 0});
+    CollisionRules rules;
+    for (Eigen::Index v = 0; v < x.rows(); ++v) rules.thickness.push_back(uniform(random, 0, 0.01));
+    const Mesh mesh(x, triangles(kCount + 1), rules);
+    const ActiveSet all = construct_active_set(mesh, t);
+    std::map<std::array<int, 3>, double> toi;
+    for (const Contact& c : all) toi[{int(c.kind), c.a, c.b}] = c.toi;
+    for (const double window : {0.0, 0.01, 0.05, 0.2}) {
+      Options o;
+      o.window = window;
+      for (const Contact& c : construct_active_set(mesh, t, o))
+        REQUIRE(toi.at({int(c.kind), c.a, c.b}) == c.toi);
+    }
+  }
+}
+
+TEST_CASE("thickness costs a trajectory no checks", "[trajectory]") {
+  MatrixXd x(6, 3);
+  x << -50, -50, 0, 150, -50, 0, -50, 150, 0, 1, 0, 1e-10, 1, 0.02, 1, 1, -0.02, 1;
+  x.col(0).array() += 1e6;
+  std::int64_t checks[2];
+  for (const int thick : {0, 1}) {
+    MatrixXd at = x;
+    CollisionRules rules;
+    if (thick == 1) rules.thickness.assign(6, 0.125), at.col(2).tail(3).array() += 0.25;
+    RigidTrajectory t(at);
+    t.add_body(3, 6, {0, 0, 1}, {0, 0, 0}, {1e6, 0, 0});
+    checks[thick] = compute_collision_free_stepsize(Mesh(at, triangles(2), rules), t).stats.checks;
+  }
+  CAPTURE(checks[0], checks[1]);
+  CHECK(checks[1] <= 2 * checks[0]);
+}
+
+TEST_CASE("an active set of a trajectory says until when memory was enough", "[trajectory]") {
+  constexpr int kCount = 12;  // triangles fall on one that stands, one after the other
+  MatrixXd x(3 * (kCount + 1), 3);
+  x.topRows(3) << -100, -100, 0, 300, -100, 0, -100, 300, 0;
+  for (int k = 1; k <= kCount; ++k)
+    x.middleRows(3 * k, 3) << 5 * k, 0, 0.07 * k, 5 * k, 0.1, 0.07 * k + 2, 5 * k + 0.1, 0.1, 0.07 * k + 2;
+  RigidTrajectory t(x);
+  for (int k = 1; k <= kCount; ++k) t.add_body(3 * k, 3 * k + 3, {0, 0, 3}, {0, 0, -1}, {5.0 * k, 0, 0});
+  const Mesh mesh(x, triangles(kCount + 1));
+  const ActiveSet all = construct_active_set(mesh, t);
+  double latest = 0;
+  for (int pairs = 0; pairs < kCount; ++pairs) {
+    Options o;
+    o.memory_limit = 256 * pairs;
+    const ActiveSet some = construct_active_set(mesh, t, o);
+    latest = std::max(latest, std::min(some.complete_until, 1.0));
+    for (const Contact& c : all) {
+      if (!(c.toi < some.complete_until)) continue;
+      const auto same = [&](const Contact& s) { return s.kind == c.kind && s.a == c.a && s.b == c.b; };
+      REQUIRE(std::any_of(some.begin(), some.end(), same));
+    }
+  }
+  CHECK(latest > 0);
+}
+
+TEST_CASE("planes are counted as such where nothing turns", "[trajectory]") {
+  MatrixXd x(3, 3), down(3, 3);
+  x << 0, 0, 1, 1, 0, 1, 0, 1, 1;
+  down = x;
+  down.col(2).array() -= 2;
+  CollisionRules rules;
+  rules.planes = {{{0, 0, 1}, 0}};
+  const ActiveSet set = construct_active_set(Mesh(x, triangles(1), rules), RigidTrajectory(x, down));
+  CHECK((set.stats.contacts.vertex_plane == 3 && set.stats.contacts.edge_edge == 0));
+}
+
+}  // namespace onset::tests
