@@ -23,21 +23,45 @@ double length(const double (&d)[3]) {
   return std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) / scale;
 }
 
-// The motion that d_hat leaves of each vertex: the nearer ends, and the shares.
+// The motion that d_hat leaves of each vertex: the nearer ends, and the shares. A rigid body has one share.
 struct Ball {
   std::vector<double> ends, share;
 
-  Ball(const Positions& x_t0, const Positions& x_t1, double d_hat) : share(std::size_t(x_t0.rows()), 1.0) {
-    const double radius = 0.5 * d_hat;
-    for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v) {
-      double dx[3];
-      for (int a = 0; a < 3; ++a) dx[a] = x_t1(v, a) - x_t0(v, a);
-      const double way = length(dx);
-      // What is not finite is for the motion to name.
-      if (way > radius && way < INFINITY) share[std::size_t(v)] = radius / way * (1 - 0x1p-50);
-      const double s = share[std::size_t(v)];
-      for (int a = 0; a < 3; ++a) ends.push_back(s < 1 ? x_t0(v, a) + s * dx[a] : x_t1(v, a));
+  Ball(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1, double d_hat)
+      : share(std::size_t(x_t0.rows()), 1.0) {
+    for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
+      share[std::size_t(v)] = share_of(mesh, x_t0, x_t1, v, d_hat);
+    std::vector<double> of_body(mesh.rigid.size(), 1.0);
+    const auto body = [&](std::size_t v) {
+      const std::size_t b = v < mesh.body.size() ? std::size_t(mesh.body[v]) : 0;
+      return b < of_body.size() && mesh.rigid[b] ? &of_body[b] : nullptr;
+    };
+    for (std::size_t v = 0; v < share.size(); ++v)
+      if (double* const of = body(v)) *of = std::min(*of, share[v]);
+    for (std::size_t v = 0; v < share.size(); ++v) {
+      if (const double* const of = body(v)) share[v] = *of;
+      const double s = share[v];
+      for (int a = 0; a < 3; ++a) {
+        const double from = x_t0(std::ptrdiff_t(v), a), to = x_t1(std::ptrdiff_t(v), a);
+        ends.push_back(s < 1 ? from + s * (to - from) : to);
+      }
     }
+  }
+
+ private:
+  // 1 for what is not usable, or static and moves: that is for the motion to name.
+  static double share_of(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1, std::ptrdiff_t v,
+                         double d_hat) {
+    if (!mesh.is_static.empty() && std::size_t(v) < mesh.is_static.size() && mesh.is_static[std::size_t(v)])
+      return 1;
+    const double radius = 0.5 * d_hat;
+    double dx[3];
+    for (int a = 0; a < 3; ++a) {
+      if (!(std::fabs(x_t1(v, a)) <= kMaxCoordinate)) return 1;
+      dx[a] = x_t1(v, a) - x_t0(v, a);
+    }
+    const double way = length(dx);
+    return way > radius && way < INFINITY ? radius / way * (1 - 0x1p-50) : 1;
   }
 };
 
@@ -50,7 +74,7 @@ class Truncation {
   void run() {
     const bool shaped = x_t0_.cols() == 3 && x_t1_.cols() == 3 && x_t0_.rows() == x_t1_.rows();
     std::optional<Ball> ball;
-    if (options_.d_hat && shaped) ball.emplace(x_t0_, x_t1_, *options_.d_hat);
+    if (options_.d_hat && shaped) ball.emplace(mesh_.data(), x_t0_, x_t1_, *options_.d_hat);
     const Positions ends = ball ? Positions(ball->ends.data(), x_t0_.rows()) : x_t1_;
     std::vector<double> start_in_plane, ends_in_plane;
     const StepSetup setup(mesh_, of_mesh(x_t0_, start_in_plane), of_mesh(ends, ends_in_plane), options_,

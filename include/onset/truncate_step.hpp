@@ -60,11 +60,11 @@ struct TruncatedStep {
 //
 // Guarantee: no pair touches, or comes as close as its separation, while every vertex moves on a straight
 // line from x_t0 to its `positions` (or to x_t0 + displacement as stored), all at one pace or each at its
-// own, and wherever each may stop. A pair that starts within its separation and apart comes no closer than
-// that along the normal of its plane. Each vertex of a pair stays on its side of a plane, which is proved for
-// the doubles that are returned; no bound in that is an absolute length. Vertices that CollisionRules::weld
-// counts as one go together, and so do all of a rigid body, by one share. The same bytes for any number of
-// threads and any instruction set.
+// own, and wherever each may stop. A pair that starts apart and within its separation, or beyond it by no
+// more than rounding (2^-44 of its size), comes no closer than it is along the normal of its plane. Each
+// vertex of a pair stays on its side of a plane, which is proved for the doubles that are returned; no bound
+// in that is an absolute length. Vertices that CollisionRules::weld counts as one go together, and so do all
+// of a rigid body, by one share. The same bytes for any number of threads and any instruction set.
 //
 // x_t0, x_t1: #V x 3 (in the plane #V x 2), model length, the two ends of a linear motion; x_t0 is assumed to
 // be free of intersections (check() in onset/check.hpp tells). options: separation, budgets, gap_share,

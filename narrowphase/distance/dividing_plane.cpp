@@ -94,12 +94,16 @@ Extent extent_of(const Points& p, const DividingPlane& plane, Heights&& height) 
   return e;
 }
 
+// The height of a distance of 1 along the normal.
+double unit_height(const DividingPlane& plane, const Demand& demand) {
+  const Vec n = vec(plane.normal);
+  return plane.scale * (demand.maximum_norm ? sum_of_magnitudes(n) : std::sqrt(dot(n, n)));
+}
+
 // The separation as a difference of heights, rounded up.
 double demanded(const DividingPlane& plane, const Demand& demand) {
   if (demand.separation == 0) return 0;
-  const Vec n = vec(plane.normal);
-  const double size = demand.maximum_norm ? sum_of_magnitudes(n) : std::sqrt(dot(n, n));
-  return demand.separation * plane.scale * size * (1 + 0x1p-49) + 0x1p-1000;
+  return demand.separation * unit_height(plane, demand) * (1 + 0x1p-49) + 0x1p-1000;
 }
 
 // What is left of a sum of rounded terms, each at most 4u off.
@@ -108,6 +112,8 @@ constexpr double kLess = 1 - 0x1p-48, kMore = 1 + 0x1p-48;
 struct Room {
   double gap, room, wanted;
   bool free, apart;
+  // The share of its approach that the pair may go.
+  double share() const { return room > 0 ? room / wanted : 0; }
 };
 Room room_of(const Extent& e, double separation, double gap_share) {
   Room r;
@@ -133,7 +139,9 @@ void place(const Extent& e, const Room& r, double separation, DividingPlane& pla
   plane.first = e.first, plane.second = e.second;
 }
 
-// Tries normals, and keeps the one that lets the pair move by the largest share.
+// Tries normals, and keeps the one that lets the pair move by the largest share. Where none lets it move at
+// all, because it starts within its separation or beyond by no more than rounding, that is the one along
+// which it is farthest apart: nearly its distance (V3).
 class Search {
  public:
   Search(const Points& points, const Demand& demand) : p_(points), demand_(demand) {}
@@ -163,9 +171,9 @@ class Search {
     r = room_of(e, separation, demand_.gap_share);
     if (r.free) return true;
     if (!r.apart) return false;
-    const double score = r.room > 0 ? r.room / r.wanted : 0;
-    if (found_ && !(score > score_)) return false;
-    found_ = true, score_ = score;
+    const double share = r.share(), distance = (e.first - e.second) / unit_height(plane, demand_);
+    if (found_ && !(share > share_ || (share == share_ && distance > distance_))) return false;
+    found_ = true, share_ = share, distance_ = distance;
     place(e, r, separation, plane);
     best_ = plane;
     return false;
@@ -178,7 +186,7 @@ class Search {
   const Demand& demand_;
   DividingPlane frame_{}, best_{};
   bool found_ = false;
-  double score_ = 0;
+  double share_ = 0, distance_ = 0;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "src/truncate/plane_limits.hpp"
 
+#include <algorithm>
+
 #include "narrowphase/plane/plane_decision.hpp"
 #include "src/planes/plane_contacts.hpp"
 
@@ -17,6 +19,7 @@ Gathered<MotionLimit> PlaneLimits::find(std::size_t most, Budget& budget) const 
         const PlaneSpan span(n, x0, motion_.t1(v));
         if (span.stays_beyond(n, d, options_.gap_share)) return;
         const PlaneStart start = start_at_plane(n, question_of(n, x0, x0, d, maximum_norm));
+        if (!start.touches && std::equal(x0, x0 + 3, motion_.t1(v))) return;  // it may stay where it is
         MotionLimit limit{};
         limit.pair = {PairKind::vertex_plane, v, block.row, {v, -1, -1, -1}};
         limit.touches = start.touches, limit.has_plane = !start.touches, limit.starts_within = start.within;

@@ -20,10 +20,10 @@ VertexGroups::VertexGroups(const MeshData& mesh, const Motion& motion, const Pos
       }
       if (stop.requested()) break;
     }
-  if (!mesh.body.empty() && !mesh.rigid.empty()) {
+  if (!mesh.rigid.empty()) {
     std::vector<int> first(mesh.rigid.size(), -1);
     for (int v = 0; v < mesh.num_vertices; ++v) {
-      const std::size_t body = std::size_t(mesh.body[std::size_t(v)]);
+      const std::size_t body = mesh.body.empty() ? 0 : std::size_t(mesh.body[std::size_t(v)]);
       if (body >= mesh.rigid.size() || !mesh.rigid[body]) continue;
       if (first[body] < 0) first[body] = v;
       join(first[body], v);

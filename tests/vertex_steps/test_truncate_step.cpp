@@ -1,4 +1,6 @@
 // A step for each vertex, on scenes whose answer is known.
+#include <Eigen/Geometry>
+#include <onset/intersections.hpp>
 #include <onset/truncate_step.hpp>
 
 #include "tests/catch.hpp"
@@ -121,6 +123,22 @@ TEST_CASE("separation, thickness and the maximum norm are kept", "[unit]") {
   }
 }
 
+TEST_CASE("what starts nearly at its separation in the maximum norm stays there", "[unit]") {
+  CollisionRules rules;
+  rules.points = {0, 1};
+  const Mesh mesh(2, Eigen::MatrixXi(0, 3), rules);
+  for (const double gap : {1e-13, 2e-14, 1e-14, 7e-15, 3e-15, 1e-15, 0.0}) {
+    MatrixXd x(2, 3), x_new(2, 3);
+    x << 0, 0, 0, 1 + gap, 0.9, 0;
+    x_new << 0, 0, 0, 0.96, 0.95, 0;
+    TruncateOptions o;
+    o.norm = Norm::maximum, o.min_separation = 1;
+    const MatrixXd end = matrix(truncate_step(mesh, x, x_new, o).positions);
+    CAPTURE(gap);
+    CHECK((end.row(1) - end.row(0)).cwiseAbs().maxCoeff() >= 1);
+  }
+}
+
 TEST_CASE("points meet each other where they are declared", "[unit]") {
   MatrixXd x(2, 3), x_new(2, 3);
   x << 0, 0, 0, 4, 0, 0;
@@ -145,6 +163,32 @@ TEST_CASE("d-hat is twice the longest way", "[unit]") {
     CHECK((std::fabs(r.share[v] - 0.125) < 1e-12 && r.limited_by[v] == -1));
     CHECK(std::fabs(r.positions[3 * v + 2] - drop.x(Eigen::Index(v), 2) + 0.25) < 1e-12);
   }
+}
+
+TEST_CASE("d-hat leaves a rigid body in one piece, and what is wrong is named", "[unit]") {
+  MatrixXd x(6, 3);  // a tip above a wide face
+  x << 10, 0, 0, -5, 8, 0, -5, -8, 0, 0, 0, 0.2, 0.01, 0, 1, -0.01, 0, 1;
+  Eigen::MatrixXi F(2, 3);
+  F << 0, 1, 2, 3, 4, 5;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  MatrixXd x_new = x * turn.transpose();
+  x_new.col(2).array() -= 1;
+  CollisionRules rules;
+  rules.rigid_bodies = {true};
+  TruncateOptions o;
+  o.d_hat = 1;
+  const TruncatedStep r = truncate_step(Mesh(x, F, rules), x, x_new, o);
+  for (const double share : r.share) CHECK((share > 0.05 && share == r.share[0]));
+  CHECK_FALSE(has_intersections(Mesh(x, F), matrix(r.positions)));
+
+  x_new(4, 1) = 1e308;
+  CHECK(truncate_step(Mesh(x, F), x, x_new, o).outcome == Outcome::out_of_range);
+  rules = {};
+  rules.static_vertices = {false, false, false, true, false, false};
+  x_new = x;
+  x_new(3, 2) += 0.1;
+  o.d_hat = 1e-17;
+  CHECK_THROWS_WITH(truncate_step(Mesh(x, F, rules), x, x_new, o), Catch::Contains("vertex 3 is static"));
 }
 
 TEST_CASE("the vertices of a rigid body, and copies that count as one, go together", "[unit]") {

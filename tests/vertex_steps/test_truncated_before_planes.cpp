@@ -98,3 +98,15 @@ TEST_CASE("a vertex that falls on a plane goes nearly all of its way there, othe
   CHECK(r.share[1] == 1);
   CHECK(r.stats.contacts.vertex_plane == 1);
 }
+
+TEST_CASE("a vertex that rests within its separation of a plane holds nobody up", "[truncate_step]") {
+  Eigen::MatrixXd x(2, 3), x_new(2, 3);
+  x << 0, 0, 0.1, 5, 0, 1;
+  x_new << 0, 0, 0.1, 6, 0, 1;
+  CollisionRules rules;
+  rules.planes = {{{0, 0, 1}, 0}};
+  TruncateOptions options;
+  options.min_separation = 0.2;
+  const TruncatedStep r = truncate_step(Mesh(x, Eigen::MatrixXi(0, 3), rules), x, x_new, options);
+  CHECK((r.outcome == Outcome::free && r.kept == 1));
+}
