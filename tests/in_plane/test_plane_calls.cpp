@@ -194,3 +194,23 @@ TEST_CASE("in the plane: the adapter has dim 2") {
     CHECK(mesh.to_full_dof(gradient) == gradient);
   }
 }
+
+TEST_CASE("in the plane: planes keep vertices out of every call of the adapter") {
+  Eigen::MatrixXd x(2, 2), x_new(2, 2);
+  x << 0, 1, 1, 1;
+  x_new << 0, -1.5, 1, -1.5;
+  ipc::CollisionMesh mesh(x, Eigen::RowVector2i(0, 1));
+  mesh.set_planes({{{0, 1, 0}, 0}});
+  for (const bool filtered : {false, true}) {
+    if (filtered) mesh.can_collide = [](std::size_t, std::size_t) { return true; };
+    const auto is_right = [](double step) { return step > 0.319 && step <= 0.32; };
+    CHECK(is_right(ipc::compute_collision_free_stepsize(mesh, x, x_new)));
+    CHECK_FALSE(ipc::is_step_collision_free(mesh, x, x_new));
+    ipc::Candidates candidates;
+    candidates.build(mesh, x, x_new);
+    CHECK(candidates.pv_candidates.size() == 2);
+    CHECK(is_right(candidates.compute_collision_free_stepsize(mesh, x, x_new)));
+    CHECK_FALSE(candidates.is_step_collision_free(mesh, x, x_new));
+    CHECK(candidates.compute_cfl_stepsize(mesh, x, x_new, 0.1) <= 0.32);
+  }
+}

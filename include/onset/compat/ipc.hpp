@@ -200,6 +200,7 @@ class Candidates {
       return int(mesh.num_edges()) + int(place - codim.begin());
     };
     onset::Candidates c;
+    for (const PlaneVertexCandidate& p : pv_candidates) c.vertex_plane.push_back({p.vertex_id, p.plane_id});
     if (mesh.dim() == 2) {
       for (const VertexVertexCandidate& p : vv_candidates)
         c.vertex_edge.push_back({p.vertex0_id, edge_of(p.vertex1_id)});
@@ -214,7 +215,6 @@ class Candidates {
       c.edge_edge.push_back({p.edge_id, edge_of(p.vertex_id)});
     for (const FaceVertexCandidate& p : fv_candidates) c.vertex_face.push_back({p.vertex_id, p.face_id});
     for (const EdgeEdgeCandidate& p : ee_candidates) c.edge_edge.push_back({p.edge0_id, p.edge1_id});
-    for (const PlaneVertexCandidate& p : pv_candidates) c.vertex_plane.push_back({p.vertex_id, p.plane_id});
     return c;
   }
 };
