@@ -7,7 +7,10 @@
 #include <string>
 
 #include "base/float_environment.hpp"
+#include "narrowphase/exact/grid.hpp"
+#include "narrowphase/exact/integer_polynomial.hpp"
 #include "narrowphase/exact/orientation.hpp"
+#include "narrowphase/exact/static.hpp"
 #include "scene/rules.hpp"
 
 namespace onset {
@@ -124,6 +127,18 @@ TetrahedraSurface surface(const Indices& ids, std::ptrdiff_t vertices, Turned&& 
   return s;
 }
 
+// The exact sign of det[a - d, b - d, c - d], of any magnitudes.
+int exact_orientation(const double* a, const double* b, const double* c, const double* d) {
+  const int quick = orientation(a, b, c, d);
+  if (quick != kUnknownSide) return quick;
+  Grid grid;
+  for (const double* p : {a, b, c, d}) grid.add(p);
+  const auto from = on_grid<Integer>(d, grid.last);
+  const auto at = [&](const double* p) { return difference(on_grid<Integer>(p, grid.last), from); };
+  const std::array<Integer, 3> x = at(a), n = exact_cross<Integer>(at(b), at(c));
+  return sign_of(x[0] * n[0] + x[1] * n[1] + x[2] * n[2]);
+}
+
 }  // namespace
 
 TetrahedraSurface surface_of_tetrahedra(const Indices& tetrahedra, std::ptrdiff_t vertices) {
@@ -141,7 +156,7 @@ TetrahedraSurface surface_of_tetrahedra(const Indices& tetrahedra, const Positio
     double p[4][3];
     for (std::size_t k = 0; k < 4; ++k)
       for (int a = 0; a < 3; ++a) p[k][a] = x(t[k], a);
-    return orientation(p[1], p[2], p[3], p[0]) == -1;
+    return exact_orientation(p[1], p[2], p[3], p[0]) == -1;
   });
 }
 

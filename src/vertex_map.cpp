@@ -103,8 +103,24 @@ void VertexMap::require_square(std::ptrdiff_t rows, std::ptrdiff_t cols) const {
                                 std::to_string(dimension_ * vertices_) + " coordinates");
 }
 
+void VertexMap::require_columns(std::ptrdiff_t rows, std::ptrdiff_t cols) const {
+  if (cols != dimension_)
+    throw std::invalid_argument("got " + shape(rows, cols) + " values; a vector, or " +
+                                std::to_string(dimension_) + " columns, are expected");
+}
+
+void VertexMap::require_dimension(int dimension) const {
+  if (dimension != dimension_)
+    throw std::invalid_argument("the map has " + std::to_string(dimension_) + " dimensions, the contacts " +
+                                std::to_string(dimension));
+}
+
 Constraints VertexMap::constraints(const Constraints& surface) const {
   const FloatEnvironment environment;
+  if (surface.row.size() != surface.value.size() || surface.dof.size() != surface.value.size())
+    throw std::invalid_argument("the constraints have " + std::to_string(surface.row.size()) + " rows, " +
+                                std::to_string(surface.dof.size()) + " dofs and " +
+                                std::to_string(surface.value.size()) + " values");
   struct Term {
     int row, dof;
     std::size_t order;

@@ -35,9 +35,10 @@ class ONSET_API VertexMap {
 
   std::ptrdiff_t num_vertices() const noexcept { return vertices_; }
   std::ptrdiff_t num_dofs() const noexcept { return dofs_; }
+  int dimension() const noexcept { return int(dimension_); }
 
   // Evaluates M q: x y z of each vertex, `Positions(p.data(), num_vertices())`.
-  // q: a vector of num_dofs() values, or a matrix of #N x 3. Throws std::invalid_argument for another size.
+  // q: a vector of num_dofs() values, or a matrix of #N x 3. Throws std::invalid_argument for another shape.
   //
   // Guarantee: products are added in the order of columns, each rounded: with n weights in a row, a
   // coordinate is within n u sum |w| |q| (1 + n u) of the exact one, u = 2^-53, where nothing underflows.
@@ -49,8 +50,9 @@ class ONSET_API VertexMap {
   // Returns a length, in the unit of q: where the dofs q0 + s (q1 - q0) are what a simulator stores, in one
   // of the orders of operations that docs/steps.md names, and positions are evaluated from them, the distance
   // of a pair differs by less than this from that on the straight motion between positions(q0) and
-  // positions(q1). A min_separation of this much keeps pairs apart all the same. Infinite where q is not
-  // finite.
+  // positions(q1). A min_separation of this much keeps pairs apart all the same, if they start farther apart
+  // than that; one that starts nearer is an initial contact, or parts or rests, and what is evaluated of it
+  // may touch. Infinite where q is not finite.
   template <class Derived, class Other>
   double rounding(const Eigen::DenseBase<Derived>& q0, const Eigen::DenseBase<Other>& q1) const {
     return rounding_of(flat(q0), flat(q1));
@@ -58,7 +60,8 @@ class ONSET_API VertexMap {
 
   // Returns the rows of constraints of the surface (assemble_constraints without full_vertex) as rows in the
   // dofs: A_q = A_x M. Entries are ordered by row, then by dof, each dof once a row; `bound` is that of the
-  // surface. Throws std::invalid_argument for an entry that is not of the surface's coordinates.
+  // surface. Throws std::invalid_argument for an entry that is not of the surface's coordinates, and for
+  // lists of different lengths.
   Constraints constraints(const Constraints& surface) const;
 
   // Takes a gradient in the surface's coordinates (3 #V values: x y z of vertex 0, ...) to the dofs: M^T g.
@@ -89,6 +92,9 @@ class ONSET_API VertexMap {
     return m;
   }
 
+  // Throws std::invalid_argument for a set or mesh of another dimension.
+  void require_dimension(int dimension) const;
+
  private:
   struct Entry {
     std::ptrdiff_t row, column;
@@ -104,8 +110,9 @@ class ONSET_API VertexMap {
     return all;
   }
   template <class Derived>
-  static std::vector<double> flat(const Eigen::DenseBase<Derived>& m) {
+  std::vector<double> flat(const Eigen::DenseBase<Derived>& m) const {
     const auto& e = m.derived().eval();
+    if (e.rows() != 1 && e.cols() != 1) require_columns(e.rows(), e.cols());
     std::vector<double> values;
     values.reserve(std::size_t(e.size()));
     for (Eigen::Index r = 0; r < e.rows(); ++r)
@@ -123,6 +130,7 @@ class ONSET_API VertexMap {
   std::vector<double> transposed(const std::vector<double>& gradient) const;
   double rounding_of(const std::vector<double>& q0, const std::vector<double>& q1) const;
   void require_square(std::ptrdiff_t rows, std::ptrdiff_t cols) const;
+  void require_columns(std::ptrdiff_t rows, std::ptrdiff_t cols) const;
 
   std::ptrdiff_t vertices_ = 0, dofs_ = 0, dimension_ = 3;
   // Whether a weight is that of all three coordinates.
@@ -135,6 +143,7 @@ class ONSET_API VertexMap {
 
 // As assemble_constraints, in the dofs of a map: `map.constraints(assemble_constraints(set, eta))`.
 inline Constraints assemble_constraints(const ActiveSet& set, double eta, const VertexMap& map) {
+  map.require_dimension(set.dimension);
   return map.constraints(assemble_constraints(set, eta));
 }
 

@@ -125,6 +125,16 @@ TEST_CASE("a tetrahedron thinner than rounding is turned by its exact orientatio
   for (const auto& f : first.faces) CHECK(has(other, f[0], f[1], f[2]));
 }
 
+TEST_CASE("a tetrahedron of numbers far apart is turned by its exact orientation", "[unit]") {
+  for (const double z : {1e-80, 1e-90, 1e-300, 0x1p-1074}) {
+    MatrixXd x(4, 3);
+    x << 0, 0, z, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+    CAPTURE(z);
+    for (const Eigen::RowVector4i& corners : {Eigen::RowVector4i(0, 1, 2, 3), Eigen::RowVector4i(0, 2, 1, 3)})
+      CHECK(std::fabs(enclosed(surface_of_tetrahedra(corners, x), x) - 1.0 / 6) < 1e-12);
+  }
+}
+
 TEST_CASE("tetrahedra that are wrong are refused by their rows", "[unit]") {
   using Catch::Contains;
   MatrixXi T(3, 4);

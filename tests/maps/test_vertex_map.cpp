@@ -162,6 +162,16 @@ TEST_CASE("maps of another shape, and values of another number, are refused", "[
                     Catch::Contains("4 x 5: for 3 vertices it is 3 x #nodes or 9 x #dof"));
   CHECK_THROWS_AS(VertexMap(-1, weights), std::invalid_argument);
   const VertexMap map(4, weights);
+  CHECK_THROWS_WITH(map.positions(MatrixXd::Zero(3, 5)),
+                    "got 3 x 5 values; a vector, or 3 columns, are expected");
+  CHECK(map.positions(MatrixXd::Zero(5, 3)).size() == 12);
+  CHECK(map.dimension() == 3);
+  ActiveSet in_plane;
+  in_plane.dimension = 2;
+  CHECK_THROWS_WITH(assemble_constraints(in_plane, 0, map), "the map has 3 dimensions, the contacts 2");
+  Constraints short_one;
+  short_one.row = {0}, short_one.value = {1, 2}, short_one.dof = {0, 1};
+  CHECK_THROWS_WITH(map.constraints(short_one), "the constraints have 1 rows, 2 dofs and 2 values");
   CHECK_THROWS_WITH(map.positions(VectorXd(14)), Catch::Contains("got 14 values; the map has 15 dofs"));
   CHECK_THROWS_AS(map.rounding(VectorXd::Zero(15), VectorXd::Zero(3)), std::invalid_argument);
   CHECK_THROWS_AS(map.to_dofs(VectorXd(VectorXd::Zero(11))), std::invalid_argument);

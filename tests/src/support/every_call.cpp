@@ -167,6 +167,7 @@ void ask_vertex_map(const Mesh& mesh, const Subject& s, const Options&, Answer& 
   Eigen::SparseMatrix<double> weights(n, n);
   for (int v = 0; v < n; ++v) weights.insert(v, v) = 0.7, weights.insert(v, (v + 1) % n) = 0.3;
   const VertexMap map(n, weights);
+  map.require_dimension(map.dimension());
   a.add(map.num_dofs(), map.positions(s.scene.x_t0), map.rounding(s.scene.x_t0, s.scene.x_t1));
   a.add(assemble_constraints(s.set, 0, map), map.constraints(assemble_constraints(s.set)));
   a.add(map.to_dofs(Eigen::VectorXd(Eigen::VectorXd::Constant(3 * n, 0.1))));
