@@ -49,23 +49,30 @@ class CandidateList {
   // Those of planes: whom the cheap test does not keep beyond its separation.
   void take_planes(const Options& options) {
     const PlaneBlocks blocks(mesh_, setup_.motion.axes, options.norm);
-    const std::size_t most = use_.list ? std::size_t(std::max<std::int64_t>(room_, 0)) : ~std::size_t(0);
     std::atomic<std::int64_t> count{0};
-    auto all = gather_planes<IdRow>(
-        blocks, most, budget_,
-        [&](const PlaneBlock& block, int v, std::vector<IdRow>& found) {
-          const PlaneSpan span(*block.plane, setup_.motion.t0(v), setup_.motion.t1(v));
-          if (!span.stays_beyond(*block.plane, separation_from_planes(mesh_, options, v), 0))
-            ++count, found.push_back({v, block.row});
-        },
-        [](const IdRow& ids) {
-          return IdPair{ids[0], ids[1]};
-        });
+    const auto add = [&](const PlaneBlock& block, int v, std::vector<IdRow>& found) {
+      const PlaneSpan span(*block.plane, setup_.motion.t0(v), setup_.motion.t1(v));
+      if (!span.stays_beyond(*block.plane, separation_from_planes(mesh_, options, v), 0))
+        ++count, found.push_back({v, block.row});
+    };
+    if (use_.list) {
+      auto all = gather_planes<IdRow>(blocks, std::size_t(std::max<std::int64_t>(room_, 0)), budget_, add,
+                                      [](const IdRow& ids) {
+                                        return IdPair{ids[0], ids[1]};
+                                      });
+      if (all.too_many) room_ = -1;
+      result_.vertex_plane = std::move(all.found);
+    } else {
+      budget_.begin_traversal(blocks.size());
+      blocks.visit(budget_, [&](std::size_t, const PlaneBlock& block) {
+        std::vector<IdRow> found;
+        PlaneWatch watch(budget_);
+        for (std::size_t i = block.first; i < block.last && !watch.ended(); ++i)
+          add(block, block.vertex(i), found);
+        hand_on(PairKind::vertex_plane, found);
+      });
+    }
     result_.counts.vertex_plane = count;
-    if (all.too_many) room_ = -1;
-    if (use_.visitor != nullptr && !all.found.empty())
-      call_host([&] { (*use_.visitor)(PairKind::vertex_plane, all.found.data(), all.found.size()); });
-    if (use_.list) result_.vertex_plane = std::move(all.found);
   }
   // Puts what was listed in order, unless the budget ends that.
   void sort() {
@@ -98,14 +105,18 @@ class CandidateList {
     }
     if (use_.list && (room_ -= std::int64_t(out.size() - before)) < 0) out.clear();
     if (out.size() >= Parts<IdRow>::kPart) parts_[std::size_t(kind)].add(out);
-    if (use_.visitor == nullptr) return;
+    if (use_.visitor != nullptr) hand_on(kind, out);
+  }
+  // Hands pairs on to the visitor, if there is one, and drops them.
+  void hand_on(PairKind kind, std::vector<IdRow>& pairs) {
     try {
-      if (!out.empty()) call_host([&] { (*use_.visitor)(kind, out.data(), out.size()); });
+      if (use_.visitor != nullptr && !pairs.empty())
+        call_host([&] { (*use_.visitor)(kind, pairs.data(), pairs.size()); });
     } catch (...) {
       budget_.abandon();
       throw;
     }
-    out.clear();
+    pairs.clear();
   }
 
   const MeshData& mesh_;
