@@ -268,9 +268,10 @@ class FilterCounter {
     return n;
   }
 
-  // Edges meet faces too, in the checks of positions at rest.
+  // Edges meet faces too, or edges in the plane, in the checks of positions at rest.
   std::vector<Primitive> others(Primitive p) const {
-    if (mesh_.dimension == 2) return {p == Primitive::vertex ? Primitive::edge : Primitive::vertex};
+    if (mesh_.dimension == 2 && p == Primitive::vertex) return {Primitive::edge};
+    if (mesh_.dimension == 2) return {Primitive::vertex, Primitive::edge};
     if (p == Primitive::vertex) return {Primitive::face};
     return {Primitive::edge, p == Primitive::edge ? Primitive::face : Primitive::vertex};
   }

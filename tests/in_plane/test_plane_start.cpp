@@ -85,6 +85,19 @@ TEST_CASE("in the plane: check finds what crosses and touches, and steps do not 
   CHECK(close.within_separation[0].distance == 0.25);
 }
 
+TEST_CASE("in the plane: edges that cross are found whatever their ends may meet, and others beside") {
+  for (const bool beside : {false, true}) {
+    Eigen::MatrixXd x(6, 2);
+    x << -1, 0, 1, 0, 0, -1, 0, 1, 50, 50, 51, 50;
+    Eigen::MatrixXi edges(3, 2);
+    edges << 0, 1, 2, 3, 4, 5;
+    CollisionRules rules;  // no vertex meets any edge
+    rules.groups = {1, 0, 1, 0, 1, 1}, rules.masks = {0, 1, 0, 1, 1, 1};
+    if (!beside) edges.conservativeResize(2, 2);
+    CHECK(intersections(Mesh::in_plane(6, edges, rules), x).pairs.size() == 1);
+  }
+}
+
 TEST_CASE("in the plane: a pair within its separation may part, and is met again later") {
   PlaneScene s;
   s.x_t0.resize(3, 2), s.x_t1.resize(3, 2);
