@@ -49,7 +49,8 @@ struct CollisionRules {
   // each pair of bodies at most once. The thickness is added to it as well.
   std::vector<BodySeparation> body_separations;
 
-  // The shape in which no pair presses: #V x 3, model length, finite; it sets no positions. With it, a mesh
+  // The shape in which no pair presses: #V x 3 (in the plane #V x 2), model length, at most
+  // 2^1020; it sets no positions. With it, a mesh
   // may be finer than the separation: what a pair must keep is at most rest_share, in (0, 1), times its
   // distance in this shape, in the norm of the call, rounded down. (Options::min_separation, thickness and
   // body_separations say what it must keep else; pairs farther apart at rest than that over rest_share keep

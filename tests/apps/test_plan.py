@@ -89,7 +89,10 @@ class Plan(AppTest):
         step = lambda *more: self.json("step", self.a, self.b, *separation, "--rest", self.a, *more)["step"]
         self.assertAlmostEqual(step(), 1 / 3, 5)
         self.assertAlmostEqual(step("--rest-share", "0.25"), 1 / 2, 5)
-        self.must_fail(1, ["two.obj has 16 vertices"], "step", self.a, self.b, "--rest", self.write("two.obj", obj(*cubes(2))))
+        self.must_fail(1, ["24 against 16 vertices"], "step", self.a, self.b, "--rest", self.write("two.obj", obj(*cubes(2))))
+        other = obj(*cubes(3)).rstrip("\n").rpartition("\n")[0] + "\n"
+        self.must_fail(1, ["other.obj"], "step", self.a, self.b, "--rest", self.write("other.obj", other))
+        self.must_fail(2, ["--rest-share"], "step", self.a, self.b, "--rest-share", "0.25")
         for wrong in ("0", "1", "2", "nan"):
             self.must_fail(2, ["--rest-share"], "step", self.a, self.b, "--rest", self.a, "--rest-share", wrong)
 

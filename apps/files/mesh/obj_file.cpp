@@ -86,7 +86,7 @@ class ObjReader {
     keywords_.append(" ").append(quoted(keyword)).append(named_.size() == kNamed ? " ..." : "");
   }
 
-  // x y z, then nothing, a weight, a colour, or both; or x y, for z = 0.
+  // x y z, then nothing, a weight, a colour, or both; or x y in all of them, for z = 0.
   void vertex() {
     const std::size_t count = words_.size() - 1;
     const Place place{"vertex", mesh_.vertices(), number_};
@@ -97,8 +97,12 @@ class ObjReader {
       if (!value) mesh_.fail(place, "is not three finite numbers: " + quoted(text));
       if (i < 3) position[i] = *value;
     }
-    if (count != 2 && count != 3 && count != 4 && count != 6 && count != 7)
-      mesh_.fail(place, "has " + std::to_string(count) + " numbers, 3 expected: " + quoted(text));
+    const bool flat = count == 2;  // all are, or one has lost a number
+    if ((!flat && count != 3 && count != 4 && count != 6 && count != 7) ||
+        (mesh_.vertices() > 0 && flat != flat_))
+      mesh_.fail(place, "has " + std::to_string(count) + " numbers, " + (flat_ ? "2" : "3") +
+                            " expected: " + quoted(text));
+    flat_ = flat;
     mesh_.vertex(position, number_, quoted(text));
   }
 
@@ -158,6 +162,7 @@ class ObjReader {
   std::int64_t faces_ = 0, wires_ = 0, points_ = 0, skipped_ = 0;
   std::vector<std::string> named_;
   std::string keywords_;
+  bool flat_ = false;  // vertices have two numbers
 };
 
 }  // namespace

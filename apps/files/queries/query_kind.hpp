@@ -6,7 +6,7 @@
 
 namespace app {
 
-const char* kind_name(onset::PairKind kind);  // "vf", "ee" or "ve"
+const char* kind_name(onset::PairKind kind);  // "vf", "ee", "ve" or "vp"
 
 // The kind that a path tells by "vertex-face" or "vf", "edge-edge" or "ee" as whole words of letters
 // ("326vf.csv"), the file's name before its folders. Throws InputError where it tells none, or both at once.

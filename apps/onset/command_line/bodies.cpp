@@ -37,12 +37,14 @@ onset::BodySeparation separation_of(const std::string& text, int count) {
 }
 
 void set_rest(const BodyArguments& a, const Scene& scene, onset::CollisionRules& rules) {
+  if (a.rest.empty() && a.rest_share_given) throw UsageError("--rest-share: of nothing, without --rest");
   if (a.rest.empty()) return;
-  const Scene rest = read_scene(a.rest, a.rest);
-  if (rest.x_t0.rows() != scene.x_t0.rows())
-    throw InputError(a.rest + " has " + std::to_string(rest.x_t0.rows()) + " vertices, " + scene.path + " " +
-                     std::to_string(scene.x_t0.rows()));
-  rules.rest_positions = rest.x_t0.leftCols(a.dimension), rules.rest_share = a.rest_share;
+  const Points rest = read_scene(scene.path, a.rest).x_t1;
+  for (Eigen::Index v = 0; v < rest.rows() && a.dimension == 2; ++v)
+    if (rest(v, 2) != 0)
+      throw InputError(a.rest + " with --dim 2: vertex " + std::to_string(v) +
+                       " has z = " + std::to_string(rest(v, 2)) + ", not 0");
+  rules.rest_positions = rest.leftCols(a.dimension), rules.rest_share = a.rest_share;
 }
 
 // nx,ny,nz,offset: four finite numbers, and a normal other than 0; none for another text.
@@ -153,7 +155,7 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
       ->check(path_fault)
       ->type_name("FILE");
   const auto take = [&a](const std::string& text) {
-    a.rest_share = parse_real("--rest-share", text, Zero::refused);
+    a.rest_share = parse_real("--rest-share", text, Zero::refused), a.rest_share_given = true;
     if (a.rest_share >= 1) throw CLI::ValidationError("--rest-share", text + " is not below 1");
   };
   command.add_option_function<std::string>("--rest-share", take, "That share (default 0.5)")->type_name("S");

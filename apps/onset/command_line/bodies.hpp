@@ -18,6 +18,7 @@ struct BodyArguments {
   std::vector<std::string> separations;  // I,J,LENGTH each
   std::string rest;                      // a path; empty for none
   double rest_share = 0.5;
+  bool rest_share_given = false;
   std::vector<std::string> planes;
 };
 

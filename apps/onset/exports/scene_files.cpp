@@ -49,6 +49,8 @@ void announce(const SceneFiles& files, const Scene& scene, Outputs& outputs) {
   if (!files.dump.empty() && (!rules.body_separations.empty() || rules.rest_positions.rows() > 0))
     throw UsageError(
         "--dump: the queries of a dump have one separation; without --rest and --body-separation");
+  if (!files.dump.empty() && !rules.planes.empty())
+    throw UsageError("--dump: a vertex and a plane are no query of a dump; without --plane");
   for (const char* option : {"--dump", "--export"})
     if ((option[2] == 'd' ? files.dump : files.geometry) == "-")
       throw UsageError(std::string(option) + ": a name for several files expected, not -");

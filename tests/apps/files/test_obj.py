@@ -28,6 +28,14 @@ class Obj(AppTest):
                        lambda text: text.replace("v 4 0 0", "v +4 0.0 0e5"), lambda text: text.replace("1.5", "15e-1")]:
             self.assertEqual(self.same(change), [])
 
+    def test_a_vertex_that_has_lost_a_number(self):
+        for lost in ("v 4 0 0", "v 0 0 0"):
+            bad = self.write("lost.obj", self.plain[0].read_text().replace(lost, lost[:-2], 1))
+            done = self.run_app("check", bad)
+            self.assertEqual(done.returncode, BAD)
+            self.assertIn("numbers", done.stderr)
+            self.assertIn("expected", done.stderr)
+
     def test_continued_lines(self):
         self.assertEqual(self.same(lambda text: text.replace("f 4 5 6", "f 4 \\\n5\\\n  6")), [])
         self.assertEqual(self.same(lambda text: text.replace("f 4 5 6", "f 4 \\\r\n5 6").replace("v 4", "v \\\n4")), [])
@@ -70,7 +78,9 @@ class Obj(AppTest):
         self.assertEqual(len(steps), 1)
 
     def test_two_coordinates_have_a_third_of_0(self):
-        self.same(lambda text: text.replace("v 4 0 0", "v 4 0"))
+        flat = "v 0 0\nv 4 0\nv 0 4\nf 1 2 3\n"
+        self.succeed("check", self.write("flat.obj", flat))
+        self.assertEqual(self.json("step", self.write("two.obj", flat), self.write("three.obj", flat.replace("\nf", " 0\nf").replace("v 0 0\nv 4 0\n", "v 0 0 0\nv 4 0 0\n")))["step"], 1)
 
 
 class Refused(AppTest):

@@ -10,7 +10,8 @@ from support import AppTest
 
 def frame(y, z=""):
     """A triangle of lines with its top at (1, 1), and an edge at height y above it."""
-    return f"v 0 0 0\nv 2 0\nv 1 1 0\nv 0 {y} {z}\nv 2 {y} {z}\nl 1 2 3 1\nl 4 5\n"
+    flat = "" if z == "" else " 0"
+    return f"v 0 0{flat}\nv 2 0{flat}\nv 1 1{flat}\nv 0 {y} {z}\nv 2 {y} {z}\nl 1 2 3 1\nl 4 5\n"
 
 
 class Plane(AppTest):
