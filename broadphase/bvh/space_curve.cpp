@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/hilbert_table.hpp"
 #include "base/parallel.hpp"
 #include "base/radix_sort.hpp"
-#include "base/hilbert_table.hpp"
 
 namespace onset {
 namespace {

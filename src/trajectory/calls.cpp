@@ -67,7 +67,7 @@ class Call {
   }
   std::vector<FoundPair> in_bodies(Stats& stats);
   std::vector<FoundPair> within_separation(const std::vector<double>& thickness, Stats& stats);
-  void add_turning(const Motion& rest, ActiveSet& set);
+  void add_turning(ActiveSet& set);
 
   const Mesh& mesh_;
   const Trajectory& trajectory_;
@@ -225,12 +225,15 @@ void cut_off(const Options& options, ActiveSet& set) {
 }
 
 // Adds the contacts of pairs with a part that turns, and within rigid bodies.
-void Call::add_turning(const Motion& rest, ActiveSet& set) {
-  ActiveSet at_rest;
+void Call::add_turning(ActiveSet& set) {
   const std::vector<FoundPair> near = in_bodies(set.stats);
-  fill_contacts(mesh_, rest, options_, near, budget_.interruption(), at_rest);
-  for (Contact& c : at_rest.contacts) c.outcome = PairOutcome::initial_contact;
-  set.contacts.insert(set.contacts.end(), at_rest.contacts.begin(), at_rest.contacts.end());
+  if (!near.empty()) {
+    ActiveSet at_rest;
+    const Motion rest = make_motion(mesh_.data().num_vertices, at(x0_), at(x0_));
+    fill_contacts(mesh_, rest, options_, near, budget_.interruption(), at_rest);
+    for (Contact& c : at_rest.contacts) c.outcome = PairOutcome::initial_contact;
+    set.contacts.insert(set.contacts.end(), at_rest.contacts.begin(), at_rest.contacts.end());
+  }
   double until = 1;
   if (const Contact* first = set.earliest()) until = std::min(until, first->toi + options_.window);
   TurningAnswer answer = turning(Collect::all, until);
@@ -256,8 +259,7 @@ ActiveSet Call::active_set() {
   const TraversalResult traversal = find_contacts(linear, setup, options_, Collect::all, budget_, set.stats);
   note_worst(mesh_, traversal, set.stats);
   fill_contacts(mesh_, setup.motion, options_, traversal.found, budget_.interruption(), set);
-  if (turns_ && budget_.outcome() == Outcome::free)
-    add_turning(make_motion(mesh_.data().num_vertices, at(x0_), at(x0_)), set);
+  if (turns_ && budget_.outcome() == Outcome::free) add_turning(set);
   cut_off(options_, set);
   if (budget_.outcome() != Outcome::free) {
     set.outcome = budget_.outcome();

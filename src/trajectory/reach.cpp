@@ -46,14 +46,19 @@ bool is_mixed(const TurningScene& scene, Primitive kind, int id) {
                      [&](int w) { return scene.body[std::size_t(w)] != scene.body[std::size_t(v[0])]; });
 }
 
-// Marks the primitives that are not beyond one side of a box with all vertices, at both ends.
-void mark(const TurningScene& scene, const Box& box, const std::vector<double>& x0,
+// Returns whether it marked any: the primitives that are not beyond one side of a box with all vertices, at
+// both ends.
+bool mark(const TurningScene& scene, const Box& box, const std::vector<double>& x0,
           const std::vector<double>& x1, std::vector<unsigned char>& beyond,
           std::array<std::vector<char>, 3>& meets) {
   parallel_ranges(beyond.size(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v)
       beyond[v] = static_cast<unsigned char>(box.beyond(&x0[3 * v]) & box.beyond(&x1[3 * v]));
   });
+  unsigned char all = 0xff;
+  for (std::size_t v = 0; v < beyond.size(); ++v)
+    if (scene.body[v] == Trajectory::kLinear) all &= beyond[v];
+  if (all != 0) return false;  // one side has them all beyond
   for (const Primitive kind : kPrimitives) {
     const std::vector<int>& ids = scene.others[std::size_t(kind)];
     std::vector<char>& of_kind = meets[std::size_t(kind)];
@@ -65,6 +70,7 @@ void mark(const TurningScene& scene, const Box& box, const std::vector<double>& 
       }
     });
   }
+  return true;
 }
 
 }  // namespace
@@ -100,7 +106,9 @@ std::array<std::vector<int>, 3> within_reach(const TurningScene& scene, const Mo
   for (const Primitive kind : kPrimitives)
     meets[std::size_t(kind)].resize(scene.others[std::size_t(kind)].size());
   std::vector<unsigned char> beyond(x0.size() / 3);
-  for (const Box& box : boxes) mark(scene, box, x0, x1, beyond, meets);
+  bool any = false;
+  for (const Box& box : boxes) any = mark(scene, box, x0, x1, beyond, meets) || any;
+  if (!any) return {};
   std::array<std::vector<int>, 3> near;
   for (const Primitive kind : kPrimitives) {
     const std::vector<int>& ids = scene.others[std::size_t(kind)];

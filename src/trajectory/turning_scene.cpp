@@ -55,11 +55,22 @@ int body_of(const MeshData& mesh, const std::vector<int>& body, Primitive kind, 
   return first;
 }
 
+// Whether the keys of these primitives may keep two of them apart, static ones aside.
+bool keys_matter(const PrimitiveFilter& filter, const Lists& taking_part) {
+  for (const Primitive kind : kPrimitives)
+    for (const int id : taking_part[std::size_t(kind)]) {
+      const PrimitiveKey& key = filter.keys[std::size_t(kind)][std::size_t(id)];
+      if (key.body < 0 || (key.flags & kExcludedFlag) != 0 || (key.group & key.mask) != ~0u) return true;
+    }
+  return false;
+}
+
 // A mesh of the same rules in which only these primitives take part, static ones apart from the others.
 std::shared_ptr<MeshData> with_lists(const MeshData& mesh, const Lists& taking_part) {
   auto data = std::make_shared<MeshData>(mesh);
   auto filter = std::make_shared<PrimitiveFilter>(*mesh.filter);
   filter->all = false;
+  filter->compares_keys = filter->compares_keys && keys_matter(*filter, taking_part);
   for (const Primitive kind : kPrimitives) {
     const std::size_t k = std::size_t(kind);
     filter->moving[k].clear(), filter->statics[k].clear();

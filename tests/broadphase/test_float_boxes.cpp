@@ -2,8 +2,8 @@
 #include <cmath>
 #include <set>
 
-#include "broadphase/bvh/float_boxes.hpp"
 #include "base/hilbert_table.hpp"
+#include "broadphase/bvh/float_boxes.hpp"
 #include "broadphase/bvh/space_curve.hpp"
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"

@@ -99,8 +99,8 @@ TEST_CASE("a window changes no time along a trajectory, with thickness neither",
     x.topRows(3) << -100, -100, 0, 200, -100, 0, -100, 200, 0;
     for (int k = 1; k <= kCount; ++k) {
       const double radius = std::pow(10, uniform(random, -2, 0)), height = uniform(random, 0.2, 0.7);
-      x.middleRows(3 * k, 3) << 5 * k + radius, 0, height, 5 * k + radius + 0.1, 0, height + 1, 5 * k + radius,
-          0.1, height + 1;
+      x.middleRows(3 * k, 3) << 5 * k + radius, 0, height, 5 * k + radius + 0.1, 0, height + 1,
+          5 * k + radius, 0.1, height + 1;
     }
     RigidTrajectory t(x);
     for (int k = 1; k <= kCount; ++k)
