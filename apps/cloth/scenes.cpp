@@ -117,9 +117,8 @@ Scene sphere(int triangles, unsigned seed) {
   b.end_cloth(scene);
   b.add_sphere(Vec3::Zero(), 0.25, 2);
   b.finish(scene);
-  scene.moved_to = [start = scene.x](int v, double time) -> Vec3 {
-    return Eigen::AngleAxisd(2 * time, Vec3::UnitZ()) * at(start, v);
-  };
+  const auto first = std::find(scene.is_free.begin(), scene.is_free.end(), 0);
+  scene.turning = Turning{int(first - scene.is_free.begin()), 2 * Vec3::UnitZ(), Vec3::Zero()};
   return scene;
 }
 

@@ -4,12 +4,19 @@
 #include <array>
 #include <functional>
 #include <onset/collision_rules.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cloth/system.hpp"
 
 namespace cloth {
+
+// Vertices from `first` on that turn about `centre` as one rigid body; rate: a rotation vector, rad/s.
+struct Turning {
+  int first;
+  Vec3 rate, centre;
+};
 
 struct Scene {
   Vector x;                               // at the start
@@ -18,7 +25,8 @@ struct Scene {
   std::size_t cloth_faces = 0;
   std::vector<onset::Plane> planes;                       // with unit normals
   std::vector<char> is_free;                              // not moved by hand
-  std::function<Vec3(int vertex, double time)> moved_to;  // vertices that are not free
+  std::function<Vec3(int vertex, double time)> moved_to;  // vertices that are not free, or do not move
+  std::optional<Turning> turning;                         // these are not free either
   Vec3 gravity{0, 0, -9.81};
   double edge = 0;  // of the cloth, about
 };

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kReach = 0.1;      // d-hat, of an edge
 constexpr double kAccuracy = 0.02;  // of d-hat: the largest change at which Newton's method ends
-constexpr int kMoves = 30;          // iterations that move vertices by hand, at most
+constexpr int kMoves = 30;          // iterations that move vertices by hand, or turn a body, at most
+constexpr double kKept = 0.9;       // share of the way to a contact that a body turns
 constexpr double kShortest = 1e-6;  // share of a step at which backtracking gives up
 
 class Timer {
@@ -118,8 +119,49 @@ bool Stepper::iterate(const Goal& goal, const Vector& moved, bool descend, StepR
   return dx.lpNorm<Eigen::Infinity>() < kAccuracy * d_hat_;
 }
 
+// How far the vertices of the body that turns have to go.
+Vector Stepper::left_to_turn() const {
+  Vector moved = Vector::Zero(x_.size());
+  const Turning& body = *scene_.turning;
+  const double angle = body.rate.norm() * (time_ - turned_until_);
+  const Eigen::AngleAxisd rotation(angle, body.rate.normalized());
+  for (int v = body.first; v < int(scene_.is_free.size()); ++v)
+    moved.segment<3>(3 * v) = body.centre + rotation * (at(x_, v) - body.centre) - at(x_, v);
+  return moved;
+}
+
+// Turns the body to where it should be, or as far as the cloth lets it, which goes along linearly.
+void Stepper::turn(const Goal& goal, StepReport& report) {
+  const Turning& body = *scene_.turning;
+  for (int i = 0; i < kMoves && turned_until_ < time_; ++i) {
+    const double left = time_ - turned_until_;
+    const Vector dx = direction(goal, left_to_turn());
+    Timer collision;
+    const std::ptrdiff_t count = x_.size() / 3;
+    const Vector x_t1 = x_ + dx;
+    onset::RigidTrajectory motion({x_.data(), count}, {x_t1.data(), count});
+    motion.add_body(body.first, count, left * body.rate, Vec3::Zero(), body.centre);
+    const onset::StepResult limit = onset::compute_collision_free_stepsize(mesh_, motion, settings_.options);
+    if (limit.outcome != onset::Outcome::free && limit.outcome != onset::Outcome::contact)
+      throw std::runtime_error(std::string("the turning body's step ended with ") +
+                               onset::to_string(limit.outcome));
+    const bool cut = limit.outcome == onset::Outcome::contact;
+    const double step = cut ? std::max(kKept * limit.step, limit.shortest) : limit.step;
+    report.smallest_step = std::min(report.smallest_step, step);
+    if (cut) report.toi = std::min(report.toi, limit.step);
+    const auto next = motion.at(step);
+    x_ = Eigen::Map<const Vector>(next.data(), x_.size());
+    close_ = onset::close_pairs(mesh_, x_, d_hat_, settings_.options);
+    report.seconds_collision += collision.seconds();
+    turned_until_ = cut ? turned_until_ + step * left : time_;
+    ++report.iterations;
+  }
+  report.behind = std::max(report.behind, left_to_turn().lpNorm<Eigen::Infinity>());
+}
+
 Vector Stepper::left_to_move() const {
   Vector moved = Vector::Zero(x_.size());
+  if (!scene_.moved_to) return moved;
   for (int v = 0; v < int(scene_.is_free.size()); ++v)
     if (!scene_.is_free[std::size_t(v)]) moved.segment<3>(3 * v) = scene_.moved_to(v, time_) - at(x_, v);
   return moved;
@@ -139,6 +181,7 @@ StepReport Stepper::step() {
   for (int i = 0; i < kMoves && moved.lpNorm<Eigen::Infinity>() > 1e-12; ++i, moved = left_to_move())
     iterate(goal, moved, false, report);
   report.behind = moved.lpNorm<Eigen::Infinity>();
+  if (scene_.turning) turn(goal, report);
   moved.setZero();
   for (int i = 0; i < settings_.iterations && !report.converged; ++i)
     report.converged = iterate(goal, moved, true, report);

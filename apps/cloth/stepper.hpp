@@ -43,6 +43,8 @@ class Stepper {
   double energy(const Goal& goal, const Vector& x, const onset::ClosePairs& close) const;
   Vector direction(const Goal& goal, const Vector& moved) const;
   Vector left_to_move() const;
+  Vector left_to_turn() const;
+  void turn(const Goal& goal, StepReport& report);
 
   Scene scene_;
   Settings settings_;
@@ -51,8 +53,8 @@ class Stepper {
   double d_hat_;
   Barrier barrier_;
   Vector x_, velocity_;
-  onset::ClosePairs close_;  // at x_
-  double time_ = 0;
+  onset::ClosePairs close_;             // at x_
+  double time_ = 0, turned_until_ = 0;  // s
 };
 
 }  // namespace cloth
