@@ -60,8 +60,8 @@ class ONSET_API LineSearch {
   // constructor, and again of each later call. Where they end the constructor it does not throw; the line
   // search then holds no pairs, and largest_step and close_pairs return that outcome at once (a step of 0, no
   // pairs), as they do for positions that are not finite. Where memory_limit leaves no room for the pairs it
-  // is no outcome of the constructor: each call finds them again. Throws as compute_collision_free_stepsize,
-  // and std::invalid_argument for gap_share or d_hat out of range.
+  // is no outcome of the constructor: each call finds them again; what rest_positions needs must fit. Throws
+  // as compute_collision_free_stepsize, and std::invalid_argument for gap_share or d_hat out of range.
   LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions& dx,
              const LineSearchOptions& options = {});
   ~LineSearch();

@@ -291,3 +291,29 @@ TEST_CASE("calls with planes end where they are told to", "[planes]") {
   bad(5, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK(compute_collision_free_stepsize(mesh, s.x_t0, bad).outcome == Outcome::non_finite);
 }
+
+TEST_CASE("the separation from a plane is min_separation and thickness, rounded up where it must be",
+          "[planes]") {
+  const auto contacts = [](double separation, double thickness, double end) {
+    CollisionRules rules = ground(0);
+    rules.thickness = {thickness, 0.125};
+    const Mesh mesh(2, Eigen::MatrixXi(0, 3), rules);
+    Eigen::MatrixXd x(2, 3), x_new(2, 3);
+    x << 0, 0, 1, 9, 0, 9;
+    x_new << 0, 0, end, 9, 0, 9;
+    Options o;
+    o.min_separation = separation;
+    CHECK((check(mesh, x_new, o).within_separation.empty()) ==
+          construct_active_set(mesh, x, x_new, o).empty());
+    return construct_active_set(mesh, x, x_new, o).size();
+  };
+  const double above = std::nextafter(0.25, 1);
+  CHECK(contacts(0, 0.25, above) == 0);
+  CHECK(contacts(0, 0.25, 0.25) == 1);
+  CHECK(contacts(0.125, 0.125, above) == 0);
+  CHECK(contacts(0.25, 0, above) == 0);
+  // 0.25 + 2^-60 is no double: more than 0.25 is kept.
+  CHECK(contacts(0.25, 0x1p-60, 0.25) == 1);
+  CHECK(contacts(0.25, 0x1p-60, std::nextafter(above, 1)) == 0);
+  CHECK(contacts(0x1p-60, 0.25, above) == 1);
+}
