@@ -258,6 +258,8 @@ std::string broken_by_budgets(const MeshInput& input, std::int64_t check_limit, 
   const Eigen::MatrixXd &x0 = input.x_t0, &x1 = input.x_t1;
   Options whole = input.options;
   whole.threads = 1, whole.window = INFINITY;
+  // A memory limit, of any size, has the times of an active set compared: at Exactness::exact all are exact.
+  if (memory_limit < whole.memory_limit) --whole.memory_limit;
   Options o = whole;
   o.check_limit = check_limit, o.memory_limit = memory_limit;
   int calls = 0;
