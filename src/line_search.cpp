@@ -71,7 +71,7 @@ bool LineSearch::Impl::fill(Budget& budget) {
   const NarrowPhase narrow(input());
   std::vector<CulledList> lists{{narrow, pairs}};
   if (options.d_hat == 0) return cull_into(*setup->broad, lists, most, budget);
-  Options beyond = options;
+  Options beyond = static_cast<const Options&>(options);
   beyond.min_separation = euclidean_reach(mesh.data(), options, options.d_hat, rounding);
   beyond.norm = Norm::euclidean;
   NarrowPhaseInput wide{mesh.data(), setup->motion, setup->accuracy.tolerance, setup->accuracy.extent,

@@ -36,6 +36,7 @@ std::vector<Box> boxes_of(const TurningScene& scene, const Motion& motion) {
     box.add(motion.t0(v)), box.add(motion.t1(v));
   }
   std::vector<Box> r;
+  r.reserve(boxes.size());
   for (const auto& [body, box] : boxes) r.push_back(box);
   return r;
 }
