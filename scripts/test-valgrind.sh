@@ -8,7 +8,8 @@ cd "$(dirname "$0")/.."
 scripts/install-packages.sh library tests profile
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
 [ $# -gt 0 ] || set -- base/test_base base/test_parallel scene/test_scene broadphase/test_broadphase narrowphase/test_narrowphase \
-  narrowphase/test_exact src/test_src src/test_start steps/test_steps faults/test_every_call threads/test_threads
+  narrowphase/test_exact src/test_src src/test_start steps/test_steps planes/test_planes in_plane/test_in_plane trajectory/test_trajectory \
+  vertex_steps/test_vertex_steps maps/test_maps faults/test_every_call threads/test_threads
 
 cmake -S . -B build -DONSET_BUILD_TESTS=ON >/dev/null
 # shellcheck disable=SC2046  # one word a program

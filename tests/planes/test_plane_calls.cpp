@@ -97,7 +97,8 @@ TEST_CASE("close pairs, starts and intersections have the planes that exact arit
     CHECK(report.acceptable() == (expected_touching.empty() && expected_within.empty()));
     behind_count += int(expected_touching.size()), within_count += int(expected_within.size());
   }
-  CHECK((close_count > 100 && behind_count > 100 && within_count > 20));
+  const int some = oracle::fuzz(400) / 4;
+  CHECK((close_count > some && behind_count > some && within_count > some / 5));
 }
 
 TEST_CASE("planes give the same bytes for any threads and instruction set", "[planes][determinism][simd]") {
