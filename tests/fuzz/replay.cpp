@@ -38,9 +38,11 @@ void damage(std::string& bytes, scenes::Random& random) {
     case 1:
       bytes.erase(at, length);
       break;
-    case 2:
-      bytes.insert(at, bytes.substr(below(bytes.size()), 1 + below(40)));
+    case 2: {  // drawn in this order by every compiler
+      const std::size_t count = 1 + below(40), from = below(bytes.size());
+      bytes.insert(at, bytes.substr(from, count));
       break;
+    }
     case 3:
       bytes[at] = char(bytes[at] + (scenes::coin(random) ? 1 : -1));
       break;
