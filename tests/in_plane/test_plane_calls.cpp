@@ -212,5 +212,14 @@ TEST_CASE("in the plane: planes keep vertices out of every call of the adapter")
     CHECK(is_right(candidates.compute_collision_free_stepsize(mesh, x, x_new)));
     CHECK_FALSE(candidates.is_step_collision_free(mesh, x, x_new));
     CHECK(candidates.compute_cfl_stepsize(mesh, x, x_new, 0.1) <= 0.32);
+    Eigen::MatrixXd bad = x_new;
+    bad(1, 0) = NAN;
+    CHECK(candidates.compute_cfl_stepsize(mesh, x, bad, 0.1) == 0);
+    CHECK(candidates.compute_cfl_stepsize(mesh, bad, x_new, 0.1) == 0);
+    candidates.ee_candidates.push_back({0, 0});
+    CHECK_THROWS_WITH(candidates.compute_collision_free_stepsize(mesh, x, x_new),
+                      Catch::Contains("have no place in two dimensions"));
+    candidates.ee_candidates.clear(), candidates.fv_candidates.push_back({0, 0});
+    CHECK_THROWS_AS(candidates.is_step_collision_free(mesh, x, x_new), std::invalid_argument);
   }
 }

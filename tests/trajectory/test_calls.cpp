@@ -242,6 +242,91 @@ TEST_CASE("what is not finite on a trajectory, budgets and callers are outcomes"
   CHECK(early.size() == expected);
 }
 
+namespace {
+
+// What a caller's class may get wrong.
+enum class Fault { none, body, bound, position, far_away };
+class Faulty final : public Trajectory {
+ public:
+  Faulty(const Eigen::MatrixXd& x, Fault fault) : x_(x), fault_(fault) {}
+  std::ptrdiff_t num_vertices() const override { return x_.rows(); }
+  int body(std::ptrdiff_t v) const override {
+    return v != 3 ? kLinear : fault_ == Fault::body ? kFree - 1 : kFree;
+  }
+  void positions(double t, const int* vertices, std::size_t count, double* xyz) const override {
+    for (std::size_t i = 0; i < count; ++i)
+      for (Eigen::Index a = 0; a < 3; ++a) xyz[3 * i + std::size_t(a)] = x_(vertices[i], a);
+    const bool midway = t > 0 && t < 1;
+    for (std::size_t i = 0; i < count && midway; ++i) {
+      if (vertices[i] == 3 && fault_ == Fault::position) xyz[3 * i] = kNaN;
+      if (vertices[i] == 3 && fault_ == Fault::far_away) xyz[3 * i] = 1e308;
+    }
+  }
+  void straying(double t0, double t1, const int*, std::size_t count, double* bounds) const override {
+    for (std::size_t i = 0; i < count; ++i)
+      bounds[i] = fault_ == Fault::bound ? -1 : 4 * (t1 - t0) * (t1 - t0) + 1e-15;
+  }
+
+ private:
+  Eigen::MatrixXd x_;
+  Fault fault_;
+};
+
+}  // namespace
+
+TEST_CASE("what a trajectory of the caller's own gets wrong is named", "[trajectory]") {
+  Eigen::MatrixXd x(6, 3);
+  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1, 1.5, 1, 3, 1, 1.5, 3;
+  Eigen::MatrixXi faces(2, 3);
+  faces << 0, 1, 2, 3, 4, 5;
+  const Mesh mesh(x, faces);
+  CHECK(compute_collision_free_stepsize(mesh, Faulty(x, Fault::none)).outcome == Outcome::free);
+  CHECK_THROWS_WITH(compute_collision_free_stepsize(mesh, Faulty(x, Fault::body)),
+                    Catch::Contains("puts vertex 3 in body -3"));
+  CHECK_THROWS_WITH(construct_active_set(mesh, Faulty(x, Fault::bound)),
+                    Catch::Contains("straying of vertex 3 is below 0"));
+  for (const Fault fault : {Fault::position, Fault::far_away}) {
+    const Outcome expected = fault == Fault::position ? Outcome::non_finite : Outcome::out_of_range;
+    const StepResult r = compute_collision_free_stepsize(mesh, Faulty(x, fault));
+    CHECK((r.outcome == expected && r.vertex == 3 && r.step == 0));
+    const ActiveSet set = construct_active_set(mesh, Faulty(x, fault));
+    CHECK((set.outcome == expected && set.vertex == 3 && set.empty() && set.complete_until == 0));
+    CHECK_FALSE(is_step_collision_free(mesh, Faulty(x, fault)));
+  }
+}
+
+TEST_CASE("what is not for bodies that turn is refused by name, and trajectories are values",
+          "[trajectory]") {
+  const Falling f;
+  const RigidTrajectory t = f.motion({0, 0, 1}, {0, 0, -0.5});
+  const auto step = [&](const CollisionRules& rules) {
+    return compute_collision_free_stepsize(Mesh(f.scene.x_t0, f.scene.faces, rules), t);
+  };
+  CollisionRules rules;
+  rules.planes = {{{0, 0, 1}, -9}};
+  CHECK_THROWS_WITH(step(rules), "planes are not supported where a vertex turns");
+  rules = {};
+  rules.bodies.assign(std::size_t(f.mesh.num_vertices()), 0);
+  rules.body_separations = {{0, 0, 0.1}};
+  CHECK_THROWS_WITH(step(rules), "body_separations are not supported where a vertex turns");
+  rules = {};
+  rules.rest_positions = f.scene.x_t0;
+  CHECK_THROWS_WITH(step(rules), "rest_positions are not supported where a vertex turns");
+  const RigidTrajectory still(Eigen::MatrixXd::Zero(2, 3));
+  CHECK_THROWS_WITH(compute_collision_free_stepsize(Mesh::in_plane(2, Eigen::RowVector2i(0, 1)), still),
+                    Catch::Contains("trajectories have three coordinates"));
+  RigidTrajectory copy = still;
+  copy = t;
+  CHECK(answers(f.mesh, copy, {}) == answers(f.mesh, t, {}));
+  const RigidTrajectory moved = std::move(copy);
+  CHECK(answers(f.mesh, moved, {}) == answers(f.mesh, t, {}));
+  RigidTrajectory out_of_range(f.scene.x_t0);
+  CHECK_THROWS_AS(out_of_range.add_body(-1, 3, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(out_of_range.add_body(3, 2, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(out_of_range.add_body(0, f.mesh.num_vertices() + 1, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}),
+                  std::invalid_argument);
+}
+
 TEST_CASE("rules hold along trajectories", "[trajectory]") {
   const Falling f;
   const RigidTrajectory t = f.motion({0, 0, 1}, {0, 0, -0.5});
