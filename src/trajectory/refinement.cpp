@@ -47,7 +47,7 @@ class Refinement {
   }
 
   TurningAnswer run() {
-    if (prepare()) {
+    if (prepare() && !alone_) {
       double length = 1;
       for (double t0 = 0; t0 < 1 && t0 <= until_ && !ended(); t0 += length) length = piece(t0, length);
     }
@@ -88,6 +88,8 @@ class Refinement {
   std::shared_ptr<BroadPhase> broad_;
   BoxTest test_ = BoxTest::both_ends;
   std::unordered_set<std::uint64_t> reported_;
+  // One rigid body, with nothing in its reach.
+  bool alone_ = false;
   TurningAnswer a_;
 };
 
@@ -96,8 +98,10 @@ bool Refinement::prepare() {
   if (!set(0, 1, q_.scene.turning_vertices)) return false;
   const double tolerance = options_.tolerance.value_or(0);
   const double strays = pieces_.largest_bound();
-  q_.scene.list(within_reach(q_.scene, pieces_.motion(), q_.x0, q_.x1, strays,
-                             largest_separation(q_.mesh.data(), options_) + tolerance));
+  const auto near = within_reach(q_.scene, pieces_.motion(), q_.x0, q_.x1, strays,
+                                 largest_separation(q_.mesh.data(), options_) + tolerance);
+  alone_ = q_.scene.is_one_body && near[0].empty() && near[1].empty() && near[2].empty();
+  q_.scene.list(near);
   if (!set(0, 1, q_.scene.filter->moving_vertices)) return false;
   const Extents extents =
       corner_extents(data(), pieces_.motion(), largest_separation(q_.mesh.data(), options_));

@@ -144,10 +144,12 @@ TurningScene::TurningScene(const Mesh& mesh, std::vector<int> bodies) : body(std
     turning_vertices.push_back(int(v));
   }
   Lists within;  // one rigid body
+  const int first_body = turning_vertices.empty() ? 0 : body[std::size_t(turning_vertices[0])];
   for (const Primitive kind : kPrimitives)
     for (const int id : listed(data, kind)) {
       const int of = body_of(data, body, kind, id);
       (of == Trajectory::kLinear ? others : turning)[std::size_t(kind)].push_back(id);
+      if (of != Trajectory::kLinear && (of < 0 || of != first_body)) is_one_body = false;
       if (of >= 0 &&
           (!data.filter->keeps_apart() || data.filter->keys[std::size_t(kind)][std::size_t(id)].body == 0))
         within[std::size_t(kind)].push_back(id), has_rest = true;

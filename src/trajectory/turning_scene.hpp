@@ -41,6 +41,8 @@ struct TurningScene {
   std::vector<double> thickness;
   // The primitives with a vertex that is not linear, and the others, that take part.
   std::array<std::vector<int>, 3> turning, others;
+  // Whether all that turns is one rigid body, which does not meet itself in pieces of time.
+  bool is_one_body = true;
 
   // Lets only these of `others` take part in the pieces.
   void list(const std::array<std::vector<int>, 3>& near);
