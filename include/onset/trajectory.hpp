@@ -76,11 +76,11 @@ class ONSET_API RigidTrajectory final : public Trajectory {
   RigidTrajectory& operator=(RigidTrajectory&&) noexcept;
   ~RigidTrajectory() override;
 
-  // Adds a body of these vertices, or of [first, last), and returns its number; x_t1 of them is not used.
-  // rotation: w, radians, a rotation vector of any length up to 2^20. translation: d, centre: c, model
-  // length. Numbers that are not finite make X(t) NaN, which a call answers with an outcome. Throws
-  // std::invalid_argument that names what is wrong: a vertex out of range, one that is in a body already, a
-  // longer rotation.
+  // Adds a body of these vertices, or of [first, last), and returns its number, which body() says of them if
+  // w is not 0; x_t1 of them is not used. rotation: w, radians, a rotation vector of any length up to 2^20.
+  // translation: d, centre: c, model length. Numbers that are not finite make X(t) NaN, which a call answers
+  // with an outcome. Throws std::invalid_argument that names what is wrong: a vertex out of range, one that
+  // is in a body already, a longer rotation.
   int add_body(const std::vector<int>& vertices, const Eigen::Vector3d& rotation,
                const Eigen::Vector3d& translation, const Eigen::Vector3d& centre);
   int add_body(std::ptrdiff_t first, std::ptrdiff_t last, const Eigen::Vector3d& rotation,

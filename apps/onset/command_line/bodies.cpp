@@ -37,7 +37,7 @@ onset::BodySeparation separation_of(const std::string& text, int count) {
 }
 
 void set_rest(const BodyArguments& a, const Scene& scene, onset::CollisionRules& rules) {
-  if (a.rest.empty() && a.rest_share_given) throw UsageError("--rest-share: of nothing, without --rest");
+  if (a.rest.empty() && a.rest_share_given) throw UsageError("--rest-share needs --rest");
   if (a.rest.empty()) return;
   const Points rest = read_scene(scene.path, a.rest).x_t1;
   for (Eigen::Index v = 0; v < rest.rows() && a.dimension == 2; ++v)

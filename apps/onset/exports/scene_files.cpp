@@ -50,7 +50,7 @@ void announce(const SceneFiles& files, const Scene& scene, Outputs& outputs) {
     throw UsageError(
         "--dump: the queries of a dump have one separation; without --rest and --body-separation");
   if (!files.dump.empty() && !rules.planes.empty())
-    throw UsageError("--dump: a vertex and a plane are no query of a dump; without --plane");
+    throw UsageError("--dump: a dump holds no pairs of a vertex and a plane; without --plane");
   for (const char* option : {"--dump", "--export"})
     if ((option[2] == 'd' ? files.dump : files.geometry) == "-")
       throw UsageError(std::string(option) + ": a name for several files expected, not -");
