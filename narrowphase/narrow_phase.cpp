@@ -91,16 +91,11 @@ void NarrowPhase::gather_separations(PairKind kind, const IdPair* pairs, std::si
   }
   const int first_side = points_of_first_side(kind);
   if (in_.straying != nullptr) {  // five sums: rounded up
-    const auto largest = [](const std::vector<double>& of, const int* first, const int* last) {
-      double r = 0;
-      for (; first != last && !of.empty(); ++first) r = std::max(r, of[std::size_t(*first)]);
-      return r;
-    };
     for (std::size_t i = 0; i < count; ++i) {
       double& sum = scratch.separation[i];
       const int *v = &scratch.vertices[4 * i], *middle = v + first_side, *end = v + 4;
       for (const std::vector<double>* of : {&in_.straying->thickness, &in_.straying->bounds})
-        sum += largest(*of, v, middle) + largest(*of, middle, end);
+        sum += largest_of(*of, v, middle) + largest_of(*of, middle, end);
       sum *= 1 + 0x1p-50;
     }
     return;

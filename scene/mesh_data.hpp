@@ -89,12 +89,22 @@ inline int count_bodies(const MeshData& mesh) {
   return mesh.body.empty() ? 1 : *std::max_element(mesh.body.begin(), mesh.body.end()) + 1;
 }
 
+// The rigid body that a vertex is in, or -1.
+inline int rigid_body(const MeshData& mesh, int vertex) {
+  const std::size_t body = mesh.body.empty() ? 0 : std::size_t(mesh.body[std::size_t(vertex)]);
+  return body < mesh.rigid.size() && mesh.rigid[body] ? int(body) : -1;
+}
+
+// Returns the largest value of the vertices [first, last), which have one each, >= 0, or all have none.
+inline double largest_of(const std::vector<double>& values, const int* first, const int* last) {
+  double r = 0;
+  for (; first != last && !values.empty(); ++first) r = std::max(r, values[std::size_t(*first)]);
+  return r;
+}
+
 // Returns the largest thickness of the vertices [first, last).
 inline double thickest(const MeshData& mesh, const int* first, const int* last) {
-  double r = 0;
-  for (; first != last && !mesh.thickness.empty(); ++first)
-    r = std::max(r, mesh.thickness[std::size_t(*first)]);
-  return r;
+  return largest_of(mesh.thickness, first, last);
 }
 
 // The largest thickness of all vertices.

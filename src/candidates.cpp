@@ -8,6 +8,7 @@
 #include "src/planes/plane_blocks.hpp"
 #include "src/planes/plane_contacts.hpp"
 #include "src/shared/checked_options.hpp"
+#include "src/shared/found_pairs.hpp"
 #include "src/shared/step_setup.hpp"
 #include "src/shared/visit_pairs.hpp"
 
@@ -33,10 +34,7 @@ class CandidateList {
         room_(use.list ? options.memory_limit / std::int64_t(sizeof(IdPair)) : 0) {}
 
   void take(PairKind kind) {
-    PairCounts& counts = result_.counts;
-    std::int64_t& count = kind == PairKind::vertex_face ? counts.vertex_face
-                          : kind == PairKind::edge_edge ? counts.edge_edge
-                                                        : counts.vertex_edge;
+    std::int64_t& count = count_of(kind, result_.counts);
     const auto visit = [&](Task& task, const IdPair* pairs, std::size_t n) { take(kind, pairs, n, task); };
     const auto merge = [&](Task& task) {
       count += task.count;
@@ -63,14 +61,8 @@ class CandidateList {
       if (all.too_many) room_ = -1;
       result_.vertex_plane = std::move(all.found);
     } else {
-      budget_.begin_traversal(blocks.size());
-      blocks.visit(budget_, [&](std::size_t, const PlaneBlock& block) {
-        std::vector<IdRow> found;
-        PlaneWatch watch(budget_);
-        for (std::size_t i = block.first; i < block.last && !watch.ended(); ++i)
-          add(block, block.vertex(i), found);
-        hand_on(PairKind::vertex_plane, found);
-      });
+      visit_planes<IdRow>(blocks, budget_, add,
+                          [&](std::vector<IdRow>& found) { hand_on(PairKind::vertex_plane, found); });
     }
     result_.counts.vertex_plane = count;
   }

@@ -7,6 +7,7 @@
 #include "narrowphase/distance/precise_differences.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
+#include "src/shared/found_pairs.hpp"
 #include "src/shared/rest/rest_limits.hpp"
 #include "src/shared/step_setup.hpp"
 #include "src/truncate/cut_motion.hpp"
@@ -32,14 +33,11 @@ struct Ball {
     for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
       share[std::size_t(v)] = share_of(mesh, x_t0, x_t1, v, d_hat);
     std::vector<double> of_body(mesh.rigid.size(), 1.0);
-    const auto body = [&](std::size_t v) {
-      const std::size_t b = v < mesh.body.size() ? std::size_t(mesh.body[v]) : 0;
-      return b < of_body.size() && mesh.rigid[b] ? &of_body[b] : nullptr;
-    };
     for (std::size_t v = 0; v < share.size(); ++v)
-      if (double* const of = body(v)) *of = std::min(*of, share[v]);
+      if (const int body = rigid_body(mesh, int(v)); body >= 0)
+        of_body[std::size_t(body)] = std::min(of_body[std::size_t(body)], share[v]);
     for (std::size_t v = 0; v < share.size(); ++v) {
-      if (const double* const of = body(v)) share[v] = *of;
+      if (const int body = rigid_body(mesh, int(v)); body >= 0) share[v] = of_body[std::size_t(body)];
       const double s = share[v];
       for (int a = 0; a < 3; ++a) {
         const double from = x_t0(std::ptrdiff_t(v), a), to = x_t1(std::ptrdiff_t(v), a);
@@ -52,8 +50,7 @@ struct Ball {
   // 1 for what is not usable, or static and moves: that is for the motion to name.
   static double share_of(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1, std::ptrdiff_t v,
                          double d_hat) {
-    if (!mesh.is_static.empty() && std::size_t(v) < mesh.is_static.size() && mesh.is_static[std::size_t(v)])
-      return 1;
+    if (!mesh.is_static.empty() && mesh.is_static[std::size_t(v)]) return 1;
     const double radius = 0.5 * d_hat;
     double dx[3];
     for (int a = 0; a < 3; ++a) {
@@ -72,7 +69,8 @@ class Truncation {
       : mesh_(mesh), x_t0_(x_t0), x_t1_(x_t1), options_(options), r_(result), budget_(options) {}
 
   void run() {
-    const bool shaped = x_t0_.cols() == 3 && x_t1_.cols() == 3 && x_t0_.rows() == x_t1_.rows();
+    const bool shaped = x_t0_.cols() == 3 && x_t1_.cols() == 3 && x_t0_.rows() == mesh_.num_vertices() &&
+                        x_t1_.rows() == mesh_.num_vertices();
     std::optional<Ball> ball;
     if (options_.d_hat && shaped) ball.emplace(mesh_.data(), x_t0_, x_t1_, *options_.d_hat);
     const Positions ends = ball ? Positions(ball->ends.data(), x_t0_.rows()) : x_t1_;
@@ -163,23 +161,10 @@ class Truncation {
       if (row[i] < 0) continue;
       row[i] = int(r_.pairs.size());
       r_.pairs.push_back(limits_[i].pair);
-      ++count_of(limits_[i].pair.kind);
+      ++count_of(limits_[i].pair.kind, r_.stats.contacts);
     }
     for (int& by : r_.limited_by)
       if (by >= 0) by = row[std::size_t(by)];
-  }
-  std::int64_t& count_of(PairKind kind) {
-    PairCounts& counts = r_.stats.contacts;
-    switch (kind) {
-      case PairKind::vertex_face:
-        return counts.vertex_face;
-      case PairKind::edge_edge:
-        return counts.edge_edge;
-      case PairKind::vertex_edge:
-        return counts.vertex_edge;
-      default:
-        return counts.vertex_plane;
-    }
   }
   void end(Outcome outcome, const Pair& pair) { r_.outcome = outcome, r_.limiting = pair; }
   template <class Is>

@@ -10,6 +10,11 @@ namespace onset {
 // docs/theory.md, L47, which proves 17.33u M.
 inline constexpr double kStoring = 18.5 * 0x1p-53;
 
+// Stores a coordinate at time t of its linear motion, by one of these orders, and exactly at both ends.
+inline double stored_between(double from, double to, double t) {
+  return t == 0 ? from : t == 1 ? to : from + t * (to - from);
+}
+
 // Returns that bound, rounded up, for all pairs: a length of the model.
 double rounding_of_distances(const Motion& m);
 

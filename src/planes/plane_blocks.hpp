@@ -77,6 +77,20 @@ class PlaneWatch {
   std::size_t count_ = 0;
 };
 
+// Calls take(found), from any thread, with what visit(block, vertex, found) has appended to `found` for the
+// vertices of one block, for all blocks. A spent budget ends it early.
+template <class Found, class Visit, class Take>
+void visit_planes(const PlaneBlocks& blocks, Budget& budget, const Visit& visit, const Take& take) {
+  budget.begin_traversal(blocks.size());
+  blocks.visit(budget, [&](std::size_t, const PlaneBlock& block) {
+    std::vector<Found> found;
+    PlaneWatch watch(budget);
+    for (std::size_t i = block.first; i < block.last && !watch.ended(); ++i)
+      visit(block, block.vertex(i), found);
+    take(found);
+  });
+}
+
 // Gathers what visit(block, vertex, found) appends to `found` for the vertices of all planes: at most `most`,
 // ordered by ids_of(found). A spent budget ends it early, with some of what was found until then.
 template <class Found, class Visit, class IdsOf>
@@ -85,12 +99,7 @@ Gathered<Found> gather_planes(const PlaneBlocks& blocks, std::size_t most, Budge
   Gathered<Found> all;
   if (blocks.size() == 0) return all;
   std::mutex mutex;
-  budget.begin_traversal(blocks.size());
-  blocks.visit(budget, [&](std::size_t, const PlaneBlock& block) {
-    std::vector<Found> found;
-    PlaneWatch watch(budget);
-    for (std::size_t i = block.first; i < block.last && !watch.ended(); ++i)
-      visit(block, block.vertex(i), found);
+  visit_planes<Found>(blocks, budget, visit, [&](const std::vector<Found>& found) {
     const std::lock_guard<std::mutex> lock(mutex);
     if (all.found.size() + found.size() > most) all.too_many = true;
     if (!all.too_many) all.found.insert(all.found.end(), found.begin(), found.end());

@@ -34,6 +34,19 @@ inline PairKind kind_of_order(std::uint64_t order) { return PairKind(order >> 62
 inline bool before(const FoundPair& x, const FoundPair& y) {
   return order_of(x.kind, x.result.pair) < order_of(y.kind, y.result.pair);
 }
+// The count of one kind.
+inline std::int64_t& count_of(PairKind kind, PairCounts& counts) {
+  switch (kind) {
+    case PairKind::vertex_face:
+      return counts.vertex_face;
+    case PairKind::edge_edge:
+      return counts.edge_edge;
+    case PairKind::vertex_edge:
+      return counts.vertex_edge;
+    default:
+      return counts.vertex_plane;
+  }
+}
 // Orders by (toi, kind, a, b).
 inline bool earlier(const FoundPair& x, const FoundPair& y) {
   return x.result.toi != y.result.toi ? x.result.toi < y.result.toi : before(x, y);

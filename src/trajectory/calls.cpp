@@ -11,15 +11,18 @@
 #include "src/shared/checked_options.hpp"
 #include "src/shared/contacts.hpp"
 #include "src/shared/find_contacts.hpp"
+#include "src/shared/found_pairs.hpp"
 #include "src/trajectory/refinement.hpp"
 #include "src/trajectory/turning_scene.hpp"
 
 namespace onset {
 namespace {
 
-bool before_in_step(const Contact& x, const Contact& y) {
-  if (x.toi != y.toi) return x.toi < y.toi;
+bool before(const Contact& x, const Contact& y) {
   return order_of(x.kind, {x.a, x.b}) < order_of(y.kind, {y.a, y.b});
+}
+bool before_in_step(const Contact& x, const Contact& y) {
+  return x.toi != y.toi ? x.toi < y.toi : before(x, y);
 }
 
 void check_rules(const MeshData& mesh) {
@@ -101,7 +104,7 @@ Stats stats_of(const Mesh& mesh, const TurningAnswer& answer) {
   note_worst(mesh, answer.counts, stats);
   stats.contacts = {};
   for (const Contact& c : answer.contacts) {
-    ++(c.kind == PairKind::vertex_face ? stats.contacts.vertex_face : stats.contacts.edge_edge);
+    ++count_of(c.kind, stats.contacts);
     stats.achieved_tolerance = std::max(stats.achieved_tolerance, c.tolerance);
   }
   stats.tolerance = answer.tolerance, stats.extent = answer.extent;
@@ -219,9 +222,8 @@ void cut_off(const Options& options, ActiveSet& set) {
     if (set.outcome == Outcome::free) set.outcome = Outcome::out_of_memory;
     contacts.erase(last, contacts.end());
   }
-  parallel_sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
-    return order_of(x.kind, {x.a, x.b}) < order_of(y.kind, {y.a, y.b});
-  });
+  parallel_sort(contacts.begin(), contacts.end(),
+                [](const Contact& x, const Contact& y) { return before(x, y); });
 }
 
 // Adds the contacts of pairs with a part that turns, and within rigid bodies.
@@ -266,10 +268,8 @@ ActiveSet Call::active_set() {
     set.complete_until = 0;
     set.stats.looked_at = budget_.done();
   }
-  if (turns_) set.stats.contacts = {};
-  for (const Contact& c : set.contacts)
-    if (turns_)
-      ++(c.kind == PairKind::vertex_face ? set.stats.contacts.vertex_face : set.stats.contacts.edge_edge);
+  set.stats.contacts = {};
+  for (const Contact& c : set.contacts) ++count_of(c.kind, set.stats.contacts);
   if (set.size() > 0 && set.outcome == Outcome::free) set.outcome = Outcome::contact;
   set.stats.seconds_total = clock.seconds();
   return set;

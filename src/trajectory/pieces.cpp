@@ -51,7 +51,7 @@ Pieces::Pieces(TurningScene& scene, const Trajectory& trajectory, const std::vec
 
 void Pieces::put_linear(int v, double t, double* x) const {
   const double *from = &x0_[3 * std::size_t(v)], *to = &x1_[3 * std::size_t(v)];
-  for (int a = 0; a < 3; ++a) x[a] = t == 0 ? from[a] : t == 1 ? to[a] : from[a] + t * (to[a] - from[a]);
+  for (int a = 0; a < 3; ++a) x[a] = stored_between(from[a], to[a], t);
 }
 
 // The ends of the chord and what is stored on the way err by 5 sqrt(3) u M each, in any of the orders of

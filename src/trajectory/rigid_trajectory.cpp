@@ -7,6 +7,7 @@
 #include "base/text_stream.hpp"
 #include "onset/trajectory.hpp"
 #include "scene/motion/rotation.hpp"
+#include "scene/motion/storing.hpp"
 
 namespace onset {
 namespace {
@@ -29,11 +30,6 @@ std::vector<double> copied(const char* name, const Positions& x, std::ptrdiff_t 
   for (std::ptrdiff_t v = 0; v < rows; ++v)
     for (std::ptrdiff_t a = 0; a < 3; ++a) r.push_back(x(v, a));
   return r;
-}
-
-// Moves a vertex linearly, by one of the orders of operations in docs/steps.md, and exactly at both ends.
-void put_between(const double* from, const double* to, double t, double* x) {
-  for (int a = 0; a < 3; ++a) x[a] = t == 0 ? from[a] : t == 1 ? to[a] : from[a] + t * (to[a] - from[a]);
 }
 
 Body body_of(const double* rotation, const double* translation, const double* centre) {
@@ -149,7 +145,8 @@ void RigidTrajectory::Impl::positions(double t, const int* vertices, std::size_t
     if (turns(v) && t != 0)
       turn(bodies[std::size_t(body[v])].turn, t, &x0[3 * v], xyz + 3 * i);
     else
-      put_between(&x0[3 * v], turns(v) ? &x0[3 * v] : &x1[3 * v], t, xyz + 3 * i);
+      for (std::size_t a = 0; a < 3; ++a)
+        xyz[3 * i + a] = stored_between(x0[3 * v + a], turns(v) ? x0[3 * v + a] : x1[3 * v + a], t);
   }
 }
 

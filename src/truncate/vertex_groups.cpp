@@ -23,10 +23,11 @@ VertexGroups::VertexGroups(const MeshData& mesh, const Motion& motion, const Pos
   if (!mesh.rigid.empty()) {
     std::vector<int> first(mesh.rigid.size(), -1);
     for (int v = 0; v < mesh.num_vertices; ++v) {
-      const std::size_t body = mesh.body.empty() ? 0 : std::size_t(mesh.body[std::size_t(v)]);
-      if (body >= mesh.rigid.size() || !mesh.rigid[body]) continue;
-      if (first[body] < 0) first[body] = v;
-      join(first[body], v);
+      const int body = rigid_body(mesh, v);
+      if (body < 0) continue;
+      int& of_body = first[std::size_t(body)];
+      if (of_body < 0) of_body = v;
+      join(of_body, v);
     }
   }
   number();
