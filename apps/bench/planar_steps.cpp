@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
-#include <iterator>
 #include <onset/onset.hpp>
 #include <vector>
+
+#include "measure/timing.hpp"
 
 namespace {
 
@@ -39,30 +39,20 @@ Scene read_scene(const char* path) {
   return s;
 }
 
-double cpu() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
 // The median of `repeats` runs, of which each is as many calls as take a millisecond.
 template <class F>
 double median_seconds(int repeats, const F& call) {
   call();
   int calls = 1;
-  for (;; calls *= 2) {
-    const double begun = cpu();
+  const auto seconds = [&] {
+    const app::Stopwatch watch;
     for (int i = 0; i < calls; ++i) call();
-    if (cpu() - begun > 1e-3) break;
-  }
+    return watch.elapsed().cpu;
+  };
+  while (seconds() <= 1e-3) calls *= 2;
   std::vector<double> times;
-  for (int r = 0; r < repeats; ++r) {
-    const double begun = cpu();
-    for (int i = 0; i < calls; ++i) call();
-    times.push_back((cpu() - begun) / calls);
-  }
-  std::nth_element(times.begin(), times.begin() + repeats / 2, times.end());
-  return times[std::size_t(repeats / 2)];
+  for (int r = 0; r < repeats; ++r) times.push_back(seconds() / calls);
+  return app::spread(times).median;
 }
 
 }  // namespace
