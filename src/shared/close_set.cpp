@@ -45,6 +45,20 @@ double euclidean_separation(const Mesh& mesh, const Options& options, const Rest
   return ratio * (options.min_separation + thickness) * (1 + 0x1p-50);
 }
 
+ClosePair pair_with_plane(const Mesh& mesh, const Options& options, int vertex, int plane) {
+  ClosePair p;
+  static_cast<Pair&>(p) = {PairKind::vertex_plane, vertex, plane, {vertex, -1, -1, -1}};
+  p.weights = {1, 0, 0, 0};
+  p.separation = euclidean_separation(mesh, options, nullptr, p);
+  return p;
+}
+
+double put_plane_distance(double distance, ClosePair& p) {
+  const double gap = below_plane_distance(distance) - p.separation;
+  p.distance = distance, p.gap = std::max(0.0, gap * (1 - 0x1p-52));
+  return gap;
+}
+
 void check_d_hat(double d_hat, bool zero_allowed) { in_float_environment(check_reach, d_hat, zero_allowed); }
 
 double euclidean_reach(const MeshData& mesh, const Options& options, double d_hat, double rounding) {
@@ -77,18 +91,13 @@ namespace {
 // As add_if_close, after a cheap test. The distance is right to 2^-49, relatively.
 void add_if_close_to_plane(const CloseInput& in, const PlaneBlock& block, int v,
                            std::vector<ClosePair>& close) {
-  ClosePair p;
-  static_cast<Pair&>(p) = {PairKind::vertex_plane, v, block.row, {v, -1, -1, -1}};
+  ClosePair p = pair_with_plane(in.mesh, in.options, v, block.row);
   const double* x = in.x + 4 * std::size_t(v);
-  p.separation = euclidean_separation(in.mesh, in.options, in.rest, p);
   if (PlaneSpan(*block.plane, x, x).stays_beyond(*block.plane, p.separation + (in.d_hat + in.slack), 0))
     return;
-  p.distance = start_at_plane(*block.plane, question_of(*block.plane, x, x, 0, false)).distance;
-  const double gap = below_plane_distance(p.distance) - p.separation;
-  if (gap > (in.d_hat + in.slack) * (1 + 0x1p-52)) return;
-  p.weights = {1, 0, 0, 0};
-  p.gap = std::max(0.0, gap * (1 - 0x1p-52));
-  close.push_back(p);
+  const double gap =
+      put_plane_distance(start_at_plane(*block.plane, question_of(*block.plane, x, x, 0, false)).distance, p);
+  if (gap <= (in.d_hat + in.slack) * (1 + 0x1p-52)) close.push_back(p);
 }
 
 }  // namespace

@@ -23,6 +23,12 @@ double euclidean_reach(const MeshData& mesh, const Options& options, double d_ha
 double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest,
                             const Pair& pair);
 
+// A pair of a vertex and a plane with its separation.
+ClosePair pair_with_plane(const Mesh& mesh, const Options& options, int vertex, int plane);
+// Puts its distance, right to 2^-49 of itself, and what is certainly its gap; returns that before it is
+// rounded down, which may be below 0.
+double put_plane_distance(double distance, ClosePair& pair);
+
 struct CloseInput {
   const Mesh& mesh;
   // 4 doubles a vertex: x y z and one unused, in any order of axes.

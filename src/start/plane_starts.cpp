@@ -1,7 +1,5 @@
 #include "src/start/plane_starts.hpp"
 
-#include <algorithm>
-
 #include "src/planes/plane_contacts.hpp"
 #include "src/shared/close_set.hpp"
 
@@ -42,13 +40,8 @@ Gathered<NearPair> find_near_planes(const Mesh& mesh, const Motion& motion, cons
       [&](const PlaneBlock& block, int v, std::vector<NearPair>& found) {
         const auto start = near(motion, options, block, v, separation_from_planes(mesh.data(), options, v));
         if (!start) return;
-        NearPair p{{}, start->touches};
-        static_cast<Pair&>(p.pair) = {PairKind::vertex_plane, v, block.row, {v, -1, -1, -1}};
-        p.pair.weights = {1, 0, 0, 0};
-        p.pair.separation = euclidean_separation(mesh, options, nullptr, p.pair);
-        p.pair.distance = start->distance;
-        p.pair.gap =
-            std::max(0.0, (below_plane_distance(start->distance) - p.pair.separation) * (1 - 0x1p-52));
+        NearPair p{pair_with_plane(mesh, options, v, block.row), start->touches};
+        put_plane_distance(start->distance, p.pair);
         found.push_back(p);
       },
       [](const NearPair& p) {
