@@ -36,15 +36,21 @@ onset::BodySeparation separation_of(const std::string& text, int count) {
   return s;
 }
 
+// Throws InputError for a vertex that is not in the plane z = 0; `when` says of which positions.
+void require_in_plane(const std::string& path, const Points& x, const char* when) {
+  for (Eigen::Index v = 0; v < x.rows(); ++v)
+    if (x(v, 2) != 0)
+      throw InputError(path + " with --dim 2: vertex " + std::to_string(v) +
+                       " has z = " + std::to_string(x(v, 2)) + when + ", not 0");
+}
+
 void set_rest(const BodyArguments& a, const Scene& scene, onset::CollisionRules& rules) {
-  if (a.rest.empty() && a.rest_share_given) throw UsageError("--rest-share needs --rest");
+  if (a.rest.empty() && a.rest_share) throw UsageError("--rest-share needs --rest");
   if (a.rest.empty()) return;
   const Points rest = read_scene(scene.path, a.rest).x_t1;
-  for (Eigen::Index v = 0; v < rest.rows() && a.dimension == 2; ++v)
-    if (rest(v, 2) != 0)
-      throw InputError(a.rest + " with --dim 2: vertex " + std::to_string(v) +
-                       " has z = " + std::to_string(rest(v, 2)) + ", not 0");
-  rules.rest_positions = rest.leftCols(a.dimension), rules.rest_share = a.rest_share;
+  if (a.dimension == 2) require_in_plane(a.rest, rest, "");
+  rules.rest_positions = rest.leftCols(a.dimension);
+  if (a.rest_share) rules.rest_share = *a.rest_share;
 }
 
 // nx,ny,nz,offset: four finite numbers, and a normal other than 0; none for another text.
@@ -70,15 +76,11 @@ std::string plane_fault(const std::string& text) {
 
 // The same edges and points, in the plane.
 void lay_in_plane(Scene& scene) {
-  const std::string from = scene.path + " with --dim 2: ";
   if (scene.mesh.num_faces() > 0)
-    throw InputError(from + "there are " + std::to_string(scene.mesh.num_faces()) +
+    throw InputError(scene.path + " with --dim 2: there are " + std::to_string(scene.mesh.num_faces()) +
                      " faces, and lines alone lie in the plane");
-  for (const Points* x : {&scene.x_t0, &scene.x_t1})
-    for (Eigen::Index v = 0; v < x->rows(); ++v)
-      if ((*x)(v, 2) != 0)
-        throw InputError(from + "vertex " + std::to_string(v) + " has z = " + std::to_string((*x)(v, 2)) +
-                         (x == &scene.x_t1 ? " at the end" : "") + ", not 0");
+  require_in_plane(scene.path, scene.x_t0, "");
+  require_in_plane(scene.path, scene.x_t1, " at the end");
   Eigen::MatrixXi edges(scene.mesh.num_edges() - scene.mesh.num_points(), 2);
   for (Eigen::Index e = 0; e < edges.rows(); ++e) {
     const std::array<int, 2> ends = scene.mesh.edge(e);
@@ -155,8 +157,8 @@ void add_body_options(CLI::App& command, BodyArguments& a) {
       ->check(path_fault)
       ->type_name("FILE");
   const auto take = [&a](const std::string& text) {
-    a.rest_share = parse_real("--rest-share", text, Zero::refused), a.rest_share_given = true;
-    if (a.rest_share >= 1) throw CLI::ValidationError("--rest-share", text + " is not below 1");
+    a.rest_share = parse_real("--rest-share", text, Zero::refused);
+    if (*a.rest_share >= 1) throw CLI::ValidationError("--rest-share", text + " is not below 1");
   };
   command.add_option_function<std::string>("--rest-share", take, "That share (default 0.5)")->type_name("S");
   add_planes(command, a.planes);

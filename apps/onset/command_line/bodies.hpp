@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,7 @@ struct BodyArguments {
   int rings = 0;
   std::vector<std::string> separations;  // I,J,LENGTH each
   std::string rest;                      // a path; empty for none
-  double rest_share = 0.5;
-  bool rest_share_given = false;
+  std::optional<double> rest_share;
   std::vector<std::string> planes;
 };
 
