@@ -92,10 +92,14 @@ class Plots(AppTest):
         self.script(APPS / "cloth" / "render.py", "out.png", "frame.ply", "frame.ply", "--cloth", "10")
         self.assertEqual((self.folder / "out.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
+    def test_gears(self):
+        self.script(SCRIPTS / "draw_gears.py", "gears.png")
+        self.assertEqual((self.folder / "gears.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
     def test_no_script_is_left_out(self):
         """A script that plots is one of those above."""
         plotting = {path.name for path in APPS.rglob("*.py") if "import matplotlib" in path.read_text()}
-        self.assertEqual(plotting, {"plot_trade.py", "render.py"})
+        self.assertEqual(plotting, {"plot_trade.py", "render.py", "draw_gears.py"})
 
 
 if __name__ == "__main__":
