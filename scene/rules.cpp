@@ -178,7 +178,7 @@ void apply_rest(const CollisionRules& rules, MeshData& data) {
   if (!(rules.rest_share > 0 && rules.rest_share < 1))
     throw std::invalid_argument("rest_share is " + std::to_string(rules.rest_share) +
                                 "; it must be in (0, 1)");
-  const Eigen::MatrixXd& x = rules.rest_positions;
+  const StoredPositions& x = rules.rest_positions;
   if (x.size() == 0 && (x.rows() == 0 || data.num_vertices == 0)) return;
   if (x.rows() != data.num_vertices || x.cols() != data.dimension)
     throw std::invalid_argument("rest_positions has " + std::to_string(x.rows()) + " rows of " +

@@ -1,12 +1,12 @@
 // Who may meet whom, and at which distance: the rules of a scene, as data.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <onset/export.hpp>
 #include <onset/result.hpp>
+#include <onset/views.hpp>
 #include <vector>
 
 namespace onset {
@@ -60,7 +60,7 @@ struct CollisionRules {
   // separation, or another norm, than those before it, within the budgets of that call (12 bytes a pair of
   // Options::memory_limit, twice as much while they are put in order), and stay with the mesh. They are few
   // where excluded_rings leaves out the neighbours.
-  Eigen::MatrixXd rest_positions;
+  StoredPositions rest_positions;
   double rest_share = 0.5;
 
   // Bodies: one id >= 0 a vertex (#V values), the same for all vertices of an edge or face; empty: all is

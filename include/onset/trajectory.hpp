@@ -50,7 +50,14 @@ class ONSET_API Trajectory {
                         double* bounds) const = 0;
 
   // X(t) of all vertices: what to store after a step to t in [0, 1].
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> at(double t) const;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> at(double t) const {
+    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> x(num_vertices(), 3);
+    all_positions(t, x.data());
+    return x;
+  }
+
+ private:
+  void all_positions(double t, double* xyz) const;
 };
 
 // Rigid bodies that turn and move, among vertices that move linearly.
@@ -82,9 +89,13 @@ class ONSET_API RigidTrajectory final : public Trajectory {
   // with an outcome. Throws std::invalid_argument that names what is wrong: a vertex out of range, one that
   // is in a body already, a longer rotation.
   int add_body(const std::vector<int>& vertices, const Eigen::Vector3d& rotation,
-               const Eigen::Vector3d& translation, const Eigen::Vector3d& centre);
+               const Eigen::Vector3d& translation, const Eigen::Vector3d& centre) {
+    return add(vertices, rotation.data(), translation.data(), centre.data());
+  }
   int add_body(std::ptrdiff_t first, std::ptrdiff_t last, const Eigen::Vector3d& rotation,
-               const Eigen::Vector3d& translation, const Eigen::Vector3d& centre);
+               const Eigen::Vector3d& translation, const Eigen::Vector3d& centre) {
+    return add(first, last, rotation.data(), translation.data(), centre.data());
+  }
 
   std::ptrdiff_t num_vertices() const override;
   int body(std::ptrdiff_t vertex) const override;
@@ -93,6 +104,10 @@ class ONSET_API RigidTrajectory final : public Trajectory {
 
  private:
   struct Impl;
+  int add(const std::vector<int>& vertices, const double* rotation, const double* translation,
+          const double* centre);
+  int add(std::ptrdiff_t first, std::ptrdiff_t last, const double* rotation, const double* translation,
+          const double* centre);
   std::unique_ptr<Impl> impl_;
 };
 

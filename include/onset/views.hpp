@@ -81,6 +81,35 @@ class Positions {
   std::ptrdiff_t rows_ = 0, cols_ = 3, row_stride_ = 3, col_stride_ = 1;
 };
 
+// #V x 3 (in the plane #V x 2) positions that are kept: a copy of what Positions views, in memory of the
+// standard library, which unlike Eigen's is the same on both sides of the library's boundary under any flags.
+class StoredPositions {
+ public:
+  StoredPositions() noexcept = default;
+  template <class Derived>
+  StoredPositions(const Eigen::DenseBase<Derived>& m)  // NOLINT: implicit by design
+      : StoredPositions(Positions(m)) {}
+  explicit StoredPositions(const Positions& x) : rows_(x.rows()), cols_(x.cols()) {
+    values_.reserve(std::size_t(rows_ * cols_));
+    for (std::ptrdiff_t r = 0; r < rows_; ++r)
+      for (std::ptrdiff_t c = 0; c < cols_; ++c) values_.push_back(x(r, c));
+  }
+  std::ptrdiff_t rows() const noexcept { return rows_; }
+  std::ptrdiff_t cols() const noexcept { return cols_; }
+  std::ptrdiff_t size() const noexcept { return rows_ * cols_; }
+  double operator()(std::ptrdiff_t row, std::ptrdiff_t col) const noexcept {
+    return values_[std::size_t(row * cols_ + col)];
+  }
+  operator Eigen::MatrixXd() const {  // NOLINT: implicit by design
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    return Eigen::Map<const Rows>(values_.data(), rows_, cols_);
+  }
+
+ private:
+  std::vector<double> values_;
+  std::ptrdiff_t rows_ = 0, cols_ = 0;
+};
+
 // #E x 2 or #F x 3 vertex ids, one row an element, from any Eigen matrix of integers. Guarantee: it owns a
 // copy. The mesh that gets it checks ids and shape.
 class Indices {

@@ -61,20 +61,18 @@ struct RigidTrajectory::Impl {
   std::vector<Body> bodies;
 
   bool turns(std::size_t v) const { return body[v] >= 0 && bodies[std::size_t(body[v])].turns; }
-  int add(const std::vector<int>& vertices, const Eigen::Vector3d& rotation,
-          const Eigen::Vector3d& translation, const Eigen::Vector3d& centre);
+  int add(const std::vector<int>& vertices, const double* rotation, const double* translation,
+          const double* centre);
   void positions(double t, const int* vertices, std::size_t count, double* xyz) const;
   void straying(double t0, double t1, const int* vertices, std::size_t count, double* bounds) const;
 };
 
 Trajectory::~Trajectory() = default;
 
-Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> Trajectory::at(double t) const {
+void Trajectory::all_positions(double t, double* xyz) const {
   std::vector<int> all(static_cast<std::size_t>(num_vertices()));
   for (std::size_t v = 0; v < all.size(); ++v) all[v] = int(v);
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> x(num_vertices(), 3);
-  in_float_environment([&] { positions(t, all.data(), all.size(), x.data()); });
-  return x;
+  in_float_environment([&] { positions(t, all.data(), all.size(), xyz); });
 }
 
 RigidTrajectory::RigidTrajectory(const Positions& x_t0, const Positions& x_t1)
@@ -93,9 +91,9 @@ RigidTrajectory& RigidTrajectory::operator=(RigidTrajectory&&) noexcept = defaul
 RigidTrajectory::~RigidTrajectory() = default;
 
 // A body that does not turn is linear: its x1 says how.
-int RigidTrajectory::Impl::add(const std::vector<int>& vertices, const Eigen::Vector3d& rotation,
-                               const Eigen::Vector3d& translation, const Eigen::Vector3d& centre) {
-  const Body added = body_of(rotation.data(), translation.data(), centre.data());
+int RigidTrajectory::Impl::add(const std::vector<int>& vertices, const double* rotation,
+                               const double* translation, const double* centre) {
+  const Body added = body_of(rotation, translation, centre);
   std::vector<int> changed = body;
   const int id = int(bodies.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -118,20 +116,20 @@ int RigidTrajectory::Impl::add(const std::vector<int>& vertices, const Eigen::Ve
   return id;
 }
 
-int RigidTrajectory::add_body(const std::vector<int>& vertices, const Eigen::Vector3d& rotation,
-                              const Eigen::Vector3d& translation, const Eigen::Vector3d& centre) {
+int RigidTrajectory::add(const std::vector<int>& vertices, const double* rotation, const double* translation,
+                         const double* centre) {
   const FloatEnvironment environment;
   return impl_->add(vertices, rotation, translation, centre);
 }
 
-int RigidTrajectory::add_body(std::ptrdiff_t first, std::ptrdiff_t last, const Eigen::Vector3d& rotation,
-                              const Eigen::Vector3d& translation, const Eigen::Vector3d& centre) {
+int RigidTrajectory::add(std::ptrdiff_t first, std::ptrdiff_t last, const double* rotation,
+                         const double* translation, const double* centre) {
   if (first < 0 || last < first || last > num_vertices())
     throw std::invalid_argument("vertices [" + std::to_string(first) + ", " + std::to_string(last) +
                                 ") are out of range, there are " + std::to_string(num_vertices()));
   std::vector<int> vertices;
   for (std::ptrdiff_t v = first; v < last; ++v) vertices.push_back(int(v));
-  return add_body(vertices, rotation, translation, centre);
+  return add(vertices, rotation, translation, centre);
 }
 
 std::ptrdiff_t RigidTrajectory::num_vertices() const { return std::ptrdiff_t(impl_->body.size()); }

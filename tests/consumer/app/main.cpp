@@ -62,6 +62,34 @@ void rules(const Scene& s) {
   expect(mesh.rules().excluded_bodies.size() == 1, "a mesh tells its rules");
 }
 
+// What holds memory is made on one side of the library's boundary and freed on the other, where Eigen may
+// allocate differently.
+void memory_of_both_sides(const Scene& s) {
+  onset::RigidTrajectory motion(s.x0);
+  motion.add_body(3, 6, {0, 0, 1}, {0, 0, -2}, {0.5, 0.5, 1});
+  onset::Mesh mesh(s.x0, s.F);
+  onset::CollisionRules rules = mesh.rules();
+  rules.rest_positions = s.x0;
+  rules.rest_share = 0.25;
+  mesh.set_rules(rules);
+  rules = mesh.rules();
+  expect(rules.rest_positions.rows() == 6 && rules.rest_positions(4, 2) == 1.25,
+         "a mesh tells its shape at rest");
+  onset::Options far;
+  far.min_separation = 10;
+  expect(onset::compute_collision_free_stepsize(mesh, s.x0, s.x1, far).step > 0,
+         "the separation is a share of that at rest");
+  rules.rest_positions = {};
+  mesh.set_rules(rules);
+  const double step = onset::compute_collision_free_stepsize(mesh, motion).step;
+  expect(step <= 0.5 && step > 0.4, "a triangle that turns meets the other");
+  std::printf("turning %a", step);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::MatrixXd x = motion.at(step);
+    if (i == 99) std::printf(" %a %a\n", x(4, 0), x(4, 2));
+  }
+}
+
 void line_search(const Scene& s, const onset::Mesh& mesh) {
   const onset::LineSearch search(mesh, s.x0, s.x1 - s.x0);
   const onset::LineSearchStep step = search.largest_step();
@@ -100,6 +128,7 @@ int main() {
   expect(edges_of_a_tetrahedron() == 6, "edges, called from a second translation unit");
   whole_steps(scene, mesh);
   rules(scene);
+  memory_of_both_sides(scene);
   line_search(scene, mesh);
   not_a_number(scene, mesh);
   single_queries();

@@ -43,7 +43,7 @@ Mesh that_may_turn(const Mesh& mesh) {
   auto& pairs = rules.excluded_pairs;
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_of_plane), pairs.end());
   rules.planes.clear(), rules.body_separations.clear();
-  rules.rest_positions.resize(0, 3);
+  rules.rest_positions = {};
   Mesh plain = mesh;
   plain.set_rules(rules);
   return plain;

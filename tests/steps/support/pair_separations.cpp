@@ -27,9 +27,11 @@ void add_rest(const StepScene& scene, double size, Random& random, CollisionRule
   rules.rest_share = scenes::coin(random) ? 0.5 : scenes::uniform(random, 0.05, 0.95);
   const int how = scenes::integer(random, 0, 3);
   if (how == 1) rules.rest_positions = scene.x_t1;
-  if (how == 2) rules.rest_positions *= 0.5;
-  for (Eigen::Index i = 0; how == 3 && i < rules.rest_positions.size(); ++i)
-    rules.rest_positions.data()[i] += scenes::uniform(random, -0.1, 0.1) * size;
+  if (how == 2) rules.rest_positions = 0.5 * scene.x_t0;
+  if (how != 3) return;
+  Eigen::MatrixXd shaken = scene.x_t0;
+  for (double& x : shaken.reshaped()) x += scenes::uniform(random, -0.1, 0.1) * size;
+  rules.rest_positions = shaken;
 }
 
 // What the documentation says, but for rounding; lo and hi: of the distance at rest.
