@@ -14,7 +14,7 @@ import pathlib
 import re
 import sys
 
-TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", "tests", "cmake", "scripts"]
+TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", "python", "tests", "cmake", "scripts"]
 CPP = {".cpp", ".hpp", ".inl"}
 SOURCES = CPP | {".py", ".sh", ".cmake", ".txt", ".in"}
 LIBRARY = ("include/", "base/", "scene/", "broadphase/", "narrowphase/", "src/")

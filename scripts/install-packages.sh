@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
@@ -10,6 +10,7 @@ peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
 clang="clang libclang-rt-dev"
 tidy="clang clang-tidy"
 profile="linux-perf valgrind"
+python="python3 python3-dev python3-venv ca-certificates"
 
 wanted=
 for group; do
@@ -21,6 +22,7 @@ for group; do
     clang) wanted="$wanted $clang" ;;
     tidy) wanted="$wanted $tidy" ;;
     profile) wanted="$wanted $profile" ;;
+    python) wanted="$wanted $python" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
 done

@@ -1,0 +1,178 @@
+#include "conversion/arrays.hpp"
+
+#include <nanobind/stl/string.h>
+
+#include <Eigen/Core>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace onset_python {
+namespace {
+
+nb::object numpy() { return nb::module_::import_("numpy"); }
+
+// `values` as numpy sees them; what it cannot read is a ValueError with the argument's name.
+nb::object as_array(const char* name, nb::handle values) {
+  try {
+    return numpy().attr("asarray")(values);
+  } catch (nb::python_error& e) {
+    if (!e.matches(PyExc_ValueError) && !e.matches(PyExc_TypeError)) throw;
+    nb::raise_from(e, PyExc_ValueError, "%s is not an array of numbers", name);
+  }
+}
+
+std::string type_of(const nb::object& array) {
+  return nb::cast<std::string>(array.attr("dtype").attr("name"));
+}
+
+std::string shape_of(const nb::object& array) {
+  return nb::cast<std::string>(array.attr("shape").attr("__str__")());
+}
+
+bool is_of_kind(const nb::object& array, const char* kinds) {
+  return std::string(kinds).find(nb::cast<std::string>(array.attr("dtype").attr("kind"))) !=
+         std::string::npos;
+}
+
+[[noreturn]] void reject(const char* name, const std::string& what) {
+  throw std::invalid_argument(std::string(name) + " " + what);
+}
+
+using Doubles = nb::ndarray<const double, nb::device::cpu>;
+
+// Doubles need to be aligned: numpy gives views of packed records that are not.
+bool view(nb::handle x, Doubles& into) {
+  return nb::try_cast(x, into, false) && reinterpret_cast<std::uintptr_t>(into.data()) % alignof(double) == 0;
+}
+
+Doubles viewed_or_copied(const char* name, nb::handle x) {
+  Doubles array;
+  if (view(x, array)) return array;
+  const nb::object given = as_array(name, x);
+  const nb::object dtype = numpy().attr("float64");
+  if (nb::cast<std::size_t>(given.attr("size")) > 0 &&
+      (!is_of_kind(given, "fiub") ||
+       !nb::cast<bool>(numpy().attr("can_cast")(given.attr("dtype"), dtype, "safe"))))
+    reject(name, "is an array of " + type_of(given) + ", which float64 does not hold");
+  const nb::object copy = numpy().attr("array")(given, dtype, nb::arg("order") = "C");
+  if (!view(copy, array)) reject(name, "cannot be read as an array of float64");
+  return array;
+}
+
+// Integers as an array of int64, without elements also where they were of another type.
+nb::ndarray<const std::int64_t, nb::device::cpu> integers(const char* name, nb::handle values,
+                                                          std::size_t axes) {
+  const nb::object given = as_array(name, values);
+  const std::size_t size = nb::cast<std::size_t>(given.attr("size"));
+  if (size > 0 && !is_of_kind(given, "iu"))
+    reject(name, "is an array of " + type_of(given) + "; it must be one of integers");
+  if (size > 0 && nb::cast<std::size_t>(given.attr("ndim")) != axes)
+    reject(name,
+           "is of shape " + shape_of(given) + "; it must have " + (axes == 1 ? "one axis" : "two axes"));
+  nb::ndarray<const std::int64_t, nb::device::cpu> array;
+  const nb::object as_int64 = numpy().attr("ascontiguousarray")(given, numpy().attr("int64"));
+  if (!nb::try_cast(as_int64, array, false)) reject(name, "cannot be read as an array of integers");
+  return array;
+}
+
+int narrowed(const char* name, std::size_t row, std::int64_t value) {
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+    reject(name, "row " + std::to_string(row) + ": " + std::to_string(value) + " is out of range");
+  return int(value);
+}
+
+}  // namespace
+
+DoublesArgument::DoublesArgument(const char* name, nb::handle x) : array_(viewed_or_copied(name, x)) {
+  if (array_.ndim() != 1 && array_.ndim() != 2)
+    reject(name, "has " + std::to_string(array_.ndim()) + " axes; it must have two, or be flat");
+}
+
+onset::Positions DoublesArgument::positions() const {
+  using Stride = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
+  if (axes() == 1)
+    return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>(array_.data(), rows(),
+                                                                      Eigen::InnerStride<>(array_.stride(0)));
+  return Eigen::Map<const Eigen::MatrixXd, 0, Stride>(array_.data(), rows(), cols(),
+                                                      Stride(array_.stride(1), array_.stride(0)));
+}
+
+std::vector<double> DoublesArgument::list() const {
+  std::vector<double> values;
+  values.reserve(array_.size());
+  for (std::ptrdiff_t r = 0; r < rows(); ++r)
+    for (std::ptrdiff_t c = 0; c < cols(); ++c) values.push_back((*this)(r, c));
+  return values;
+}
+
+onset::Indices indices(const char* name, nb::handle values, int columns) {
+  using Rows = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  if (values.is_none()) return Rows(0, columns);
+  const auto array = integers(name, values, 2);
+  if (array.size() == 0)
+    return Rows(0, array.ndim() == 2 && array.shape(1) > 0 ? int(array.shape(1)) : columns);
+  return Eigen::Map<const Rows>(array.data(), Eigen::Index(array.shape(0)), Eigen::Index(array.shape(1)));
+}
+
+std::vector<int> ids(const char* name, nb::handle values) {
+  std::vector<int> list;
+  if (values.is_none()) return list;
+  const auto array = integers(name, values, 1);
+  list.reserve(array.size());
+  for (std::size_t i = 0; i < array.size(); ++i) list.push_back(narrowed(name, i, array.data()[i]));
+  return list;
+}
+
+std::vector<std::array<int, 2>> id_pairs(const char* name, nb::handle values) {
+  std::vector<std::array<int, 2>> list;
+  if (values.is_none()) return list;
+  const auto array = integers(name, values, 2);
+  if (array.size() == 0) return list;
+  if (array.shape(1) != 2) reject(name, "has " + std::to_string(array.shape(1)) + " columns; it must have 2");
+  list.reserve(array.shape(0));
+  for (std::size_t i = 0; i < array.shape(0); ++i)
+    list.push_back({narrowed(name, i, array.data()[2 * i]), narrowed(name, i, array.data()[2 * i + 1])});
+  return list;
+}
+
+std::vector<double> doubles(const char* name, nb::handle values) {
+  if (values.is_none()) return {};
+  const DoublesArgument array(name, values);
+  if (array.axes() != 1 && array.rows() * array.cols() > 0) reject(name, "has two axes; it must have one");
+  return array.list();
+}
+
+std::vector<bool> flags(const char* name, nb::handle values) {
+  std::vector<bool> list;
+  if (values.is_none()) return list;
+  const nb::object given = as_array(name, values);
+  if (nb::cast<std::size_t>(given.attr("size")) == 0) return list;
+  if (!is_of_kind(given, "b")) reject(name, "is an array of " + type_of(given) + "; it must be one of bool");
+  if (nb::cast<std::size_t>(given.attr("ndim")) != 1)
+    reject(name, "is of shape " + shape_of(given) + "; it must have one axis");
+  for (const std::int64_t flag : ids(name, given.attr("astype")("int8"))) list.push_back(flag != 0);
+  return list;
+}
+
+std::vector<std::uint32_t> bits(const char* name, nb::handle values) {
+  std::vector<std::uint32_t> list;
+  if (values.is_none()) return list;
+  const auto array = integers(name, values, 1);
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const std::int64_t value = array.data()[i];
+    if (value < 0 || value > std::numeric_limits<std::uint32_t>::max())
+      reject(name, "row " + std::to_string(i) + ": " + std::to_string(value) + " does not fit into 32 bits");
+    list.push_back(std::uint32_t(value));
+  }
+  return list;
+}
+
+std::array<double, 3> vector3(const char* name, nb::handle values) {
+  const DoublesArgument array(name, values);
+  if (array.rows() * array.cols() != 3) reject(name, "must have three components");
+  const std::vector<double> list = array.list();
+  return {list[0], list[1], list[2]};
+}
+
+}  // namespace onset_python
