@@ -2,6 +2,7 @@
 #include <onset/active_set.hpp>
 #include <onset/constraints.hpp>
 #include <onset/match.hpp>
+#include <onset/vertex_map.hpp>
 #include <string>
 
 #include "bindings.hpp"
@@ -62,6 +63,12 @@ void bind_constraints(nb::module_& m) {
       .ONSET_ARRAY(Constraints, value)
       .ONSET_ARRAY(Constraints, bound)
       .def("rows", &Constraints::rows, "The number of rows.");
+  m.def(
+      "assemble_constraints",
+      [](const ActiveSet& set, double eta, const onset::VertexMap& map) {
+        return without_lock([&] { return onset::assemble_constraints(set, eta, map); });
+      },
+      nb::arg("set"), nb::arg("eta"), nb::arg("map"), doc("assemble_constraints#2"));
   m.def(
       "assemble_constraints",
       [](const ActiveSet& set, double eta, nb::handle full_vertex) {

@@ -14,8 +14,8 @@ using namespace onset;
 template <class E>
 class Enumeration {
  public:
-  Enumeration(nb::module_& m, const char* name)
-      : name_(name), type_(m, name, nb::is_arithmetic(), doc(name)) {}
+  Enumeration(nb::module_& m, const char* name, const char* what = nullptr)
+      : name_(name), type_(m, name, nb::is_arithmetic(), what != nullptr ? what : doc(name)) {}
   Enumeration& add(const char* name, E value) {
     type_.value(name, value, doc((std::string(name_) + "." + name).c_str()));
     return *this;
@@ -40,7 +40,7 @@ void bind_what_is_known(nb::module_& m) {
       .add("crossing", IntersectionKind::crossing)
       .add("touching", IntersectionKind::touching)
       .add("overlapping", IntersectionKind::overlapping);
-  Enumeration<StartFault>(m, "StartFault")
+  Enumeration<StartFault>(m, "StartFault", "What may be wrong with a start.")
       .add("intersecting", StartFault::intersecting)
       .add("touching", StartFault::touching)
       .add("within_separation", StartFault::within_separation)

@@ -118,12 +118,6 @@ void bind_maps(nb::module_& m) {
       .def(
           "matrix", [](const VertexMap& map) { return triplets(map.matrix()); },
           nb::sig("def matrix(self) -> " ONSET_TRIPLETS), doc("VertexMap.matrix"));
-  m.def(
-      "assemble_constraints",
-      [](const onset::ActiveSet& set, double eta, const VertexMap& map) {
-        return without_lock([&] { return onset::assemble_constraints(set, eta, map); });
-      },
-      nb::arg("set"), nb::arg("eta"), nb::arg("map"), doc("assemble_constraints#2"));
 }
 
 }  // namespace onset_python

@@ -5,6 +5,7 @@
 
 NB_MODULE(_onset, m) {
   using namespace onset_python;
+  nb::set_leak_warnings(false);  // what the interpreter still holds when it ends is no fault of the program
   m.doc() = "Conservative continuous collision detection: the calls of include/onset, on numpy arrays.";
   bind_enums(m);
   bind_results(m);
@@ -14,8 +15,8 @@ NB_MODULE(_onset, m) {
   bind_close_pairs(m);
   bind_steps(m);
   bind_line_search(m);
-  bind_active_sets(m);
   bind_maps(m);
+  bind_active_sets(m);
   bind_starts(m);
   bind_queries(m);
   bind_trajectories(m);

@@ -55,7 +55,9 @@ Doubles viewed_or_copied(const char* name, nb::handle x) {
       (!is_of_kind(given, "fiub") ||
        !nb::cast<bool>(numpy().attr("can_cast")(given.attr("dtype"), dtype, "safe"))))
     reject(name, "is an array of " + type_of(given) + ", which float64 does not hold");
-  const nb::object copy = numpy().attr("array")(given, dtype, nb::arg("order") = "C");
+  const nb::object copy = nb::cast<std::size_t>(given.attr("size")) > 0
+                              ? numpy().attr("array")(given, dtype, nb::arg("order") = "C")
+                              : numpy().attr("zeros")(given.attr("shape"));
   if (!view(copy, array)) reject(name, "cannot be read as an array of float64");
   return array;
 }
@@ -71,7 +73,9 @@ nb::ndarray<const std::int64_t, nb::device::cpu> integers(const char* name, nb::
     reject(name,
            "is of shape " + shape_of(given) + "; it must have " + (axes == 1 ? "one axis" : "two axes"));
   nb::ndarray<const std::int64_t, nb::device::cpu> array;
-  const nb::object as_int64 = numpy().attr("ascontiguousarray")(given, numpy().attr("int64"));
+  const nb::object type = numpy().attr("int64");
+  const nb::object as_int64 = size > 0 ? numpy().attr("ascontiguousarray")(given, type)
+                                       : numpy().attr("zeros")(given.attr("shape"), type);
   if (!nb::try_cast(as_int64, array, false)) reject(name, "cannot be read as an array of integers");
   return array;
 }

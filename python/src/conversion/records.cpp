@@ -71,9 +71,10 @@ nb::object made_once(nb::object*& place, Make&& make) {
 }
 
 nb::object field(const char* name, nb::handle values, const char* field) {
-  const nb::object names = values.attr("dtype").attr("names");
+  const nb::object names = nb::getattr(nb::getattr(values, "dtype", nb::none()), "names", nb::none());
   if (names.is_none() || !nb::cast<bool>(names.attr("__contains__")(field)))
-    throw std::invalid_argument(std::string(name) + " has no field '" + field + "'");
+    throw std::invalid_argument(std::string(name) + " must be a structured array with a field '" + field +
+                                "'");
   return values[field];
 }
 
