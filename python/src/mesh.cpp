@@ -19,7 +19,7 @@ Mesh made_mesh(nb::handle rest, nb::handle faces, nb::handle edges, nb::handle r
   const onset::CollisionRules r = rules_of(rules);
   std::ptrdiff_t vertices = 0;
   if (nb::isinstance<nb::int_>(rest)) {
-    vertices = nb::cast<std::ptrdiff_t>(rest);
+    vertices = whole_number("rest:", rest);
   } else {
     const PositionsArgument x("rest", rest);
     vertices = x->rows();
@@ -30,9 +30,12 @@ Mesh made_mesh(nb::handle rest, nb::handle faces, nb::handle edges, nb::handle r
   }
   if (dimension == 2 && F.rows() > 0)
     throw std::invalid_argument("a mesh in the plane has edges and no faces");
-  if (dimension == 2) return Mesh::in_plane(vertices, indices("edges", edges, 2), r);
-  if (edges.is_none()) return Mesh(vertices, F, r);
-  return Mesh(vertices, indices("edges", edges, 2), F, r);
+  const bool derive = edges.is_none() && dimension != 2;
+  const onset::Indices E = indices("edges", edges, 2);
+  return without_lock([&] {
+    if (dimension == 2) return Mesh::in_plane(vertices, E, r);
+    return derive ? Mesh(vertices, F, r) : Mesh(vertices, E, F, r);
+  });
 }
 
 nb::object edges_of(const Mesh& mesh) {
@@ -73,7 +76,7 @@ void bind_surface(nb::module_& m) {
       "surface_of_tetrahedra",
       [](nb::handle tetrahedra, nb::handle x) {
         const onset::Indices T = indices("tetrahedra", tetrahedra, 4);
-        if (nb::isinstance<nb::int_>(x)) return onset::surface_of_tetrahedra(T, nb::cast<std::ptrdiff_t>(x));
+        if (nb::isinstance<nb::int_>(x)) return onset::surface_of_tetrahedra(T, whole_number("x:", x));
         const PositionsArgument positions("x", x);
         return without_lock([&] { return onset::surface_of_tetrahedra(T, positions); });
       },
@@ -86,14 +89,19 @@ void bind_surface(nb::module_& m) {
 
 void bind_edges(nb::module_& m) {
   m.def(
-      "edges", [](nb::handle faces) { return taken_array(onset::edge_list(indices("faces", faces, 3))); },
+      "edges",
+      [](nb::handle faces) {
+        const onset::Indices F = indices("faces", faces, 3);
+        return taken_array(without_lock([&] { return onset::edge_list(F); }));
+      },
       nb::arg("faces"),
       nb::sig("def edges(faces: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.int32]"),
       doc("edge_list"));
   m.def(
       "complete_edges",
       [](nb::handle edges, nb::handle faces) {
-        return taken_array(onset::complete_edge_list(indices("edges", edges, 2), indices("faces", faces, 3)));
+        const onset::Indices E = indices("edges", edges, 2), F = indices("faces", faces, 3);
+        return taken_array(without_lock([&] { return onset::complete_edge_list(E, F); }));
       },
       nb::arg("edges"), nb::arg("faces"),
       nb::sig("def complete_edges(edges: numpy.typing.ArrayLike, faces: numpy.typing.ArrayLike) -> "
@@ -127,7 +135,12 @@ void bind_mesh(nb::module_& m) {
           "Raises ValueError naming the row for what the library does not take.")
       .def_prop_rw(
           "rules", [](const Mesh& mesh) { return onset::CollisionRules(mesh.rules()); },
-          [](Mesh& mesh, nb::handle rules) { mesh.set_rules(rules_of(rules)); },
+          [](Mesh& mesh, nb::handle rules) {
+            const onset::CollisionRules r = rules_of(rules);
+            Mesh changed = mesh;  // calls that run meanwhile have copies
+            without_lock([&] { changed.set_rules(r); });
+            mesh = changed;
+          },
           nb::for_getter(nb::sig("def rules(self) -> CollisionRules")), nb::for_setter(nb::arg().none()),
           nb::for_setter(nb::sig("def rules(self, rules: CollisionRules | None, /) -> None")),
           "A copy of the rules; what is assigned replaces them. ValueError names the rule and the row that "

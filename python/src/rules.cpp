@@ -34,18 +34,25 @@ std::vector<Plane> planes_of(nb::handle values) {
   return list;
 }
 
+// (body_a, body_b, separation).
+std::optional<BodySeparation> separation_of(nb::handle value) {
+  BodySeparation s;
+  if (nb::try_cast(value, s)) return s;
+  if (!nb::isinstance<nb::sequence>(value) || nb::len(value) != 3) return std::nullopt;
+  const std::optional<double> separation = real_number(value[2]);
+  if (!separation || !nb::try_cast(value[0], s.body_a, false) || !nb::try_cast(value[1], s.body_b, false))
+    return std::nullopt;
+  s.separation = *separation;
+  return s;
+}
+
 std::vector<BodySeparation> body_separations_of(nb::handle values) {
   std::vector<BodySeparation> list;
   for (const nb::handle value : values) {
-    BodySeparation s;
-    std::array<double, 3> row{};
-    if (nb::try_cast(value, s)) {
-      list.push_back(s);
-      continue;
-    }
-    if (!nb::try_cast(value, row) || row[0] != int(row[0]) || row[1] != int(row[1]))
+    const std::optional<BodySeparation> s = separation_of(value);
+    if (!s)
       throw nb::type_error("body_separations must be of BodySeparation, or (body_a, body_b, separation)");
-    list.push_back({int(row[0]), int(row[1]), row[2]});
+    list.push_back(*s);
   }
   return list;
 }

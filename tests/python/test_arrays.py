@@ -105,6 +105,22 @@ def test_bad_faces_are_named(faces, what):
         onset_ccd.Mesh(6, faces)
 
 
+@pytest.mark.parametrize("vertices", [2**63, -2**63 - 1, 2**62, -1])
+def test_numbers_of_vertices_that_cannot_be(vertices):
+    with pytest.raises(ValueError):
+        onset_ccd.Mesh(vertices)
+
+
+def test_complex_numbers_are_not_cut_short(falling, recwarn):
+    mesh = onset_ccd.Mesh(6, falling.faces)
+    with pytest.raises(TypeError, match="min_separation"):
+        onset_ccd.close_pairs(mesh, falling.x_t0, 1.0, min_separation=np.complex128(1))
+    with pytest.raises(TypeError, match="body_separations"):
+        onset_ccd.CollisionRules(body_separations=[np.ones(3, complex)])
+    assert onset_ccd.close_pairs(mesh, falling.x_t0, 1.0, min_separation=np.float32(0.5)).pairs["separation"][0] == 0.5
+    assert not recwarn.list
+
+
 def test_lists_without_elements():
     mesh = onset_ccd.Mesh(np.zeros((0, 3)), [])
     assert (mesh.num_vertices, mesh.num_edges, mesh.num_faces) == (0, 0, 0)

@@ -88,6 +88,20 @@ int narrowed(const char* name, std::size_t row, std::int64_t value) {
 
 }  // namespace
 
+std::optional<double> real_number(nb::handle value) {
+  const bool plain = nb::isinstance<nb::float_>(value) || PyIndex_Check(value.ptr()) != 0;
+  if (!plain && !(nb::hasattr(value, "dtype") && is_of_kind(nb::borrow(value), "f"))) return std::nullopt;
+  double number = 0;
+  return nb::try_cast(value, number) ? std::optional<double>(number) : std::nullopt;
+}
+
+std::ptrdiff_t whole_number(const char* name, nb::handle value) {
+  std::ptrdiff_t number = 0;
+  if (!nb::try_cast(value, number))
+    reject(name, nb::cast<std::string>(value.attr("__str__")()) + " does not fit into 64 bits");
+  return number;
+}
+
 DoublesArgument::DoublesArgument(const char* name, nb::handle x) : array_(viewed_or_copied(name, x)) {
   if (array_.ndim() != 1 && array_.ndim() != 2)
     reject(name, "has " + std::to_string(array_.ndim()) + " axes; it must have two, or be flat");

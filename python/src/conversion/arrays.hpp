@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <onset/views.hpp>
+#include <optional>
 #include <vector>
 
 namespace onset_python {
@@ -54,6 +55,11 @@ std::vector<std::uint32_t> bits(const char* name, nb::handle values);
 // #pairs x 2.
 std::vector<std::array<int, 2>> id_pairs(const char* name, nb::handle values);
 std::array<double, 3> vector3(const char* name, nb::handle values);
+
+// A real number, of Python or of numpy; none for anything else, complex numbers among it.
+std::optional<double> real_number(nb::handle value);
+// ValueError where it does not fit into 64 bits.
+std::ptrdiff_t whole_number(const char* name, nb::handle value);
 
 // A read-only array of what `owner` holds.
 template <class T>

@@ -9,6 +9,7 @@
 #include <memory>
 #include <unordered_map>
 
+#include "conversion/arrays.hpp"
 #include "conversion/docs.hpp"
 
 namespace onset_python {
@@ -17,12 +18,14 @@ namespace {
 template <class T>
 T value_of(const char* name, nb::handle value) {
   T result{};
-  if (!nb::try_cast(value, result)) {
-    const std::string text =
-        std::string("option ") + name + ": " + nb::repr(value).c_str() + " is of another type";
-    throw nb::type_error(text.c_str());
+  if constexpr (std::is_same_v<T, double>) {
+    if (const std::optional<double> number = real_number(value)) return *number;
+  } else if (nb::try_cast(value, result)) {
+    return result;
   }
-  return result;
+  const std::string text =
+      std::string("option ") + name + ": " + nb::repr(value).c_str() + " is of another type";
+  throw nb::type_error(text.c_str());
 }
 
 // An enumerator, or its name.
