@@ -7,8 +7,8 @@
     x = x_t0 + step.step * (x_t1 - x_t0)
 
 Positions are arrays of #V x 3 float64 (#V x 2 in the plane), in any order of memory, which the calls read without a copy. Results
-hold arrays that are views of the library's memory, contacts and close pairs as structured arrays with named fields. What the
-library has outcomes for is a result; bad input is a ValueError with the library's text. Calls of more than one pair release the
+hold arrays that are views of the library's memory, contacts and close pairs as structured arrays with named fields (compare
+fields: what lies between them in memory says nothing). What the library has outcomes for is a result; bad input is a ValueError with the library's text. Calls of more than one pair release the
 interpreter's lock and may run at once in several threads.
 """
 

@@ -26,6 +26,11 @@ def falling():
     return Scene(x_t0, x_t1, np.array([[0, 1, 2], [3, 4, 5]]))
 
 
+def bits(records):
+    """The bytes of all fields; what lies between the fields says nothing."""
+    return b"".join(np.ascontiguousarray(records[name]).tobytes() for name in records.dtype.names)
+
+
 def grid(n, z=0.0):
     """n x n vertices of a cloth."""
     x, y = np.meshgrid(np.linspace(0, 1, n), np.linspace(0, 1, n), indexing="ij")

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import grid
+from conftest import bits, grid
 
 import onset_ccd
 
@@ -44,16 +44,16 @@ def test_other_threads_run_meanwhile(slow):
 
 def test_many_threads_on_one_mesh_whose_rules_change(crumpled):
     mesh = onset_ccd.Mesh(crumpled.x_t0, crumpled.faces)
-    expected = onset_ccd.construct_active_set(mesh, crumpled.x_t0, crumpled.x_t1).contacts.tobytes()
+    expected = bits(onset_ccd.construct_active_set(mesh, crumpled.x_t0, crumpled.x_t1).contacts)
     thin = onset_ccd.CollisionRules()
     thick = onset_ccd.CollisionRules(thickness=np.full(len(crumpled.x_t0), 0.01))
     mesh.rules = thick
-    other = onset_ccd.construct_active_set(mesh, crumpled.x_t0, crumpled.x_t1).contacts.tobytes()
+    other = bits(onset_ccd.construct_active_set(mesh, crumpled.x_t0, crumpled.x_t1).contacts)
     found, done = [], threading.Event()
 
     def call():
         while not done.is_set():
-            found.append(onset_ccd.construct_active_set(mesh, crumpled.x_t0, crumpled.x_t1, threads=1).contacts.tobytes())
+            found.append(bits(onset_ccd.construct_active_set(mesh, crumpled.x_t0, crumpled.x_t1, threads=1).contacts))
 
     threads = [threading.Thread(target=call) for _ in range(4)]
     for thread in threads:
