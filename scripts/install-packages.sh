@@ -10,7 +10,7 @@ peers="libfcl-dev libembree-dev python3 python3-venv ca-certificates"
 clang="clang libclang-rt-dev"
 tidy="clang clang-tidy"
 profile="linux-perf valgrind"
-python="python3 python3-dev python3-venv ca-certificates"
+python="python3 python3-dev python3-venv ca-certificates libegl1 libgl1-mesa-dri"
 
 wanted=
 for group; do

@@ -1,0 +1,1 @@
+"""The commands of python -m onset_ccd, in the words of the native command line."""
