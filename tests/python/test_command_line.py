@@ -3,7 +3,10 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -133,6 +136,16 @@ def test_stdout_has_one_thing(frames):
     assert done.stdout.startswith("kind,a,b,toi,")
     assert done.stderr.startswith("note        a.obj: triangulated 25 polygons")
     assert json.loads(run("step", "a.obj", "b.obj", "--json", "-", cwd=frames).stdout)["outcome"] == "contact"
+
+
+def test_an_interrupt_leaves_no_files(frames):
+    words = ["trade", "a.obj", "b.obj", "--repeats", "1000", "--seconds", "1000", "--json", "t.json"]
+    running = subprocess.Popen([sys.executable, "-m", "onset_ccd", *words], cwd=frames, stderr=subprocess.PIPE, text=True)
+    time.sleep(3)
+    running.send_signal(signal.SIGINT)
+    assert running.communicate(timeout=60)[1] == "onset_ccd: interrupted; nothing is written\n"
+    assert running.returncode == 130
+    assert not (frames / "t.json").exists() and not list(frames.glob("*unfinished*"))
 
 
 def test_help_and_version():

@@ -1,5 +1,6 @@
 """Meshes of every format and kind, good and broken, read by python -m onset_ccd."""
 
+import struct
 import subprocess
 import sys
 
@@ -7,6 +8,7 @@ import meshio
 import numpy as np
 import pytest
 
+from onset_ccd.files.mesh_file import read_mesh
 from onset_ccd.files.scene import read_scene
 from running import fails, native, result, run, sheet, tetrahedra, triangles, two_cubes, two_sheets, wedges, write_obj
 
@@ -147,9 +149,15 @@ def test_files_that_are_not_taken(tmp_path):
     says("noise.vtk", "noise\n", "Illegal VTK header")
     says("noise.vtu", "<VTKFile", "meshio cannot read it")
     says("noise.msh", "$MeshFormat\nhello\n", "meshio cannot read it")
-    says("noise.ply", "ply\nformat ascii 2.0\n", "meshio")
-    says("noise.stl", "solid\nfacet normal 0 0 0\nvertex 0 0\n", "meshio cannot read it")
-    says("noise.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "meshio cannot read it")
+    says("noise.ply", "noise\n", "noise.ply:1: not a PLY file")
+    says("noise.stl", "solid\nfacet normal 0 0 0\nvertex 0 0\n", "noise.stl:3: vertex 0 is not three finite numbers: 'vertex 0 0'")
+    says("quad.stl", "solid\n" + facet((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)), "quad.stl:9: face 0 has 4 corners, 3 expected")
+    says("cut.stl", "solid\n" + facet((0, 0, 0), (1, 0, 0), (1, 1, 0))[:-10], "the file ends within a facet")
+    says("short.stl", "stl", "not an STL file")
+    says("cut2.stl", bytes(80) + struct.pack("<I", 2) + bytes(50), "not an STL file, or cut off: as a binary one it has 2 faces")
+    says("colour.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 3 0 1 2\n3 1 3 2 3 0 1 2\n", "32 words, 24 expected")
+    says("noise.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "10 words, 17 expected of 3 vertices and 1 triangles")
+    says("noise2.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 a 0\n3 0 1 2\n", "meshio cannot read it")
     says("noise.xyz", "0 0 0", "unknown extension .xyz")
     says("noise", "0 0 0", "no extension")
     says("zero.obj", "v 0 0 0\nf 0 1 2\n", "zero.obj:2: face 0 has vertex index 0; the first vertex is 1")
@@ -166,7 +174,19 @@ def test_files_that_are_not_taken(tmp_path):
     says("far.vtk", (tmp_path / "far.vtk").read_bytes(), "has vertex index 9, not in [0, 9)")
     meshio.Mesh(x[:6], [("triangle6", np.arange(6)[None])]).write(tmp_path / "curved.vtu")
     says("curved.vtu", (tmp_path / "curved.vtu").read_bytes(), "cells of the kind triangle6 are not taken")
+    (tmp_path / "voxel.vtu").write_text(VOXEL)
+    assert "cells that meshio cannot handle (type 11). Elements would be missing" in fails("check", "voxel.vtu", cwd=tmp_path)
+    says("poly.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 0 float\n", "save an unstructured grid (.vtu), or .ply")
     assert "is a directory" in fails("check", ".", cwd=tmp_path)
+
+
+VOXEL = """<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>
+<Piece NumberOfPoints="8" NumberOfCells="1"><Points><DataArray type="Float64" Name="Points" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1</DataArray></Points><Cells>
+<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3 4 5 6 7</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">8</DataArray><DataArray type="Int64" Name="types" format="ascii">11</DataArray>
+</Cells></Piece></UnstructuredGrid></VTKFile>
+"""
 
 
 def test_obj_is_read_whole(tmp_path):
@@ -177,6 +197,61 @@ def test_obj_is_read_whole(tmp_path):
     assert scene.mesh.faces.tolist() == [[0, 1, 2]]
     assert scene.mesh.edges.tolist() == [[0, 1], [0, 2], [1, 2], [3, 4], [4, 5], [6, 6]]
     assert scene.notes == [f"{tmp_path / 'a.obj'}: skipped 2 lines with keywords that are not OBJ's: 'foo'"]
+
+
+def test_ply_is_read_whole(tmp_path):
+    """Edges, colours behind the corners, both names of their list, both byte orders; ascii numbers are doubles."""
+    x = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.1], [0.2, 0.2, 1], [0.2, 0.2, 2]])
+    polygons, edges = [[0, 1, 2], [1, 3, 2], [0, 1, 3, 2]], [[4, 5]]
+    for order, letter in (("ascii", ""), ("binary_little_endian", "<"), ("binary_big_endian", ">")):
+        for count in (2, 3):  # triangles alone, and faces of different size
+            name = f"{order}{count}.ply"
+            header = (f"ply\nformat {order} 1.0\ncomment made up\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+                      f"property uchar red\nelement face {count}\nproperty list uchar ushort vertex_index\nproperty uchar red\n"
+                      "element edge 1\nproperty int vertex1\nproperty int vertex2\nelement material 1\nproperty int id\nend_header\n")
+            if letter:
+                body = b"".join(struct.pack(f"{letter}fffB", *row, 7) for row in x)
+                body += b"".join(struct.pack(f"{letter}B{len(p)}HB", len(p), *p, 3) for p in polygons[:count])
+                body += struct.pack(f"{letter}iii", *edges[0], 5)
+            else:
+                rows = [[*row, 7] for row in x.tolist()] + [[len(p), *p, 3] for p in polygons[:count]] + edges + [[5]]
+                body = "".join(" ".join(map(str, row)) + "\n" for row in rows).encode()
+            (tmp_path / name).write_bytes(header.encode() + body)
+            mesh = read_mesh(str(tmp_path / name))
+            assert (mesh.positions == (x.astype(np.float32) if letter else x)).all()
+            assert [p.tolist() for p in mesh.polygons()] == polygons[:count] and mesh.wires.tolist() == edges
+            assert mesh.notes == ["skipped element material, 1 row"]
+            for cut in (len(body) - 2, len(body) // 2):
+                (tmp_path / "cut.ply").write_bytes(header.encode() + body[:cut])
+                assert fails("check", "cut.ply", cwd=tmp_path).startswith("cut.ply")
+
+
+PLY_FAULTS = [
+    ("format ascii 1.0", "format ascii 2.0", "x.ply:2: unknown 'format ascii 2.0'"),
+    ("element face 1", "element face -1", "x.ply:7: element face has count '-1'"),
+    ("element face 1", "element face 99999", "x.ply: element face has count 99999, the file has"),
+    ("element face 1", "element vertex 1", "x.ply:7: a second element vertex"),
+    ("property double z\n", "", "x.ply: no vertex property z: for two dimensions"),
+    ("vertex_indices", "corners", "x.ply: no face property vertex_indices"),
+    ("list uchar int", "list float int", "x.ply:8: property vertex_indices has count type 'float'"),
+    ("list uchar int", "list uchar float", "x.ply: property vertex_indices has float values, indices expected"),
+    ("3 0 1 2", "3 0 1", "x.ply:13: face 0 says that list vertex_indices has '3' values: '3 0 1'"),
+    ("3 0 1 2", "3 0 1 2 9", "x.ply:13: face 0 has 5 values, 4 expected: '3 0 1 2 9'"),
+    ("3 0 1 2", "3 0 1 3", "x.ply: face 0 has vertex index 3, not in [0, 3)"),
+    ("0 1 0\n", "0 one 0\n", "x.ply:12: vertex 2 has a word where a number is expected: '0 one 0'"),
+    ("3 0 1 2\n", "3 0 1 2\n4\n", "x.ply:14: more than the header tells of: '4'"),
+    ("end_header", "end", "x.ply:9: unknown line in the header: 'end'"),
+    ("3 0 1 2", "0", "x.ply: face 0 has no vertices"),
+]
+
+
+@pytest.mark.parametrize("old, new, says", PLY_FAULTS, ids=[says for *_, says in PLY_FAULTS])
+def test_broken_ply(tmp_path, old, new, says):
+    good = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    assert old in good
+    (tmp_path / "x.ply").write_text(good.replace(old, new))
+    assert fails("check", "x.ply", cwd=tmp_path).startswith(says)
 
 
 def test_differences_are_named(tmp_path):

@@ -33,16 +33,16 @@ class MeshFile:
 
     def set_polygons(self, groups):
         """Takes groups of rows of corners: arrays, or lists of rows of any length."""
-        sizes, flat = [[]], [[]]
+        sizes, flat = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
         for rows in groups:
             if isinstance(rows, np.ndarray):
                 sizes.append(np.full(len(rows), rows.shape[1]))
                 flat.append(rows.ravel())
             else:
-                sizes.append([len(row) for row in rows])
-                flat += rows
-        self.corners = np.concatenate(flat).astype(np.int64)
-        self.ends = np.cumsum(np.concatenate(sizes)).astype(np.int64)
+                sizes.append(np.array([len(row) for row in rows], np.int64))
+                flat += [np.asarray(row, np.int64) for row in rows]
+        self.corners = np.concatenate(flat)
+        self.ends = np.cumsum(np.concatenate(sizes))
 
 
 def check_elements(mesh, base=0):
@@ -107,6 +107,9 @@ def read_mesh(path):
     """Reads a mesh. Raises InputError naming the file and the cause."""
     from .meshio_file import read_with_meshio
     from .obj_file import read_obj
+    from .ply_file import read_ply
+    from .stl_file import read_stl
 
     check_is_file(path)
-    return read_obj(path) if path.lower().endswith(".obj") else read_with_meshio(path)
+    own = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl}
+    return own.get(os.path.splitext(path)[1].lower(), read_with_meshio)(path)

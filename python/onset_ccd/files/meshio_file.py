@@ -11,6 +11,8 @@ import numpy as np
 from .errors import InputError, missing, one_line
 from .mesh_file import MeshFile, finish
 
+# What meshio says when it leaves elements out.
+LEFT_OUT = re.compile(r"cannot handle|doesn't know|could not parse|[Uu]nsupported")
 SOLIDS = ("tetra", "hexahedron", "wedge", "pyramid")
 
 
@@ -31,18 +33,17 @@ def check_extension(meshio, path):
                          f"one of {', '.join(sorted(known))} expected")
 
 
-def ply_source(path):
-    """The bytes of a PLY file as meshio understands them. It knows one name of the list of corners, and would take a binary face with
-    more than that list for the next face."""
-    with open(path, "rb") as file:
-        data = file.read()
-    end = data.find(b"end_header")
-    header = data[:end].decode("latin-1")
-    of_faces = re.search(r"element face .*?(?=element |\Z)", header, re.DOTALL)
-    if end >= 0 and of_faces and "format binary" in header and len(re.findall(r"(?m)^property", of_faces.group())) > 1:
-        raise InputError(f"{path}: meshio does not read binary PLY with colours or other data of faces: write ascii, or .vtk")
-    header = re.sub(r"(?m)^(property list \S+ \S+ )vertex_index(\s*)$", r"\1vertex_indices\2", header)
-    return io.BytesIO(header.encode("latin-1") + data[end:]) if end >= 0 else io.BytesIO(data)
+def check_off(path):
+    """meshio would take colours of faces for the next face."""
+    if not path.lower().endswith(".off"):
+        return
+    with open(path, encoding="utf-8", errors="replace") as file:
+        words = " ".join(line.split("#", 1)[0] for line in file).split()
+    if words and words[0] == "OFF" and len(words) > 3 and all(word.isdigit() for word in words[1:3]):
+        expected = 4 + 3 * int(words[1]) + 4 * int(words[2])
+        if len(words) != expected:
+            raise InputError(f"{path}: {len(words)} words, {expected} expected of {words[1]} vertices and {words[2]} triangles: write .ply, "
+                             "or triangles without colours")
 
 
 def cause_of(error, said):
@@ -51,6 +52,8 @@ def cause_of(error, said):
         return f"this format needs the package {error.name}: pip install {error.name}"
     printed = [line for line in said.splitlines() if line.strip() and line.strip() != "None"]
     if isinstance(error, SystemExit):
+        if any("not POLYDATA" in line for line in printed):
+            return "POLYDATA, which meshio does not read: save an unstructured grid (.vtu), or .ply"
         told = [line for line in printed if not line.startswith("Error: ")]
         return one_line(told[0]) if told else "meshio cannot read it, the file is damaged or of another format"
     if isinstance(error, (AssertionError, IndexError, KeyError, ValueError, TypeError)) or not str(error):
@@ -62,15 +65,13 @@ def call_meshio(path):
     """(mesh, what meshio said on the way)"""
     meshio = import_meshio(path)
     check_extension(meshio, path)
+    check_off(path)
     said = io.StringIO()
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            if path.lower().endswith(".ply"):
-                mesh = meshio.read(ply_source(path), file_format="ply")
-            else:
-                mesh = meshio.read(path)
-    except (InputError, KeyboardInterrupt):
+            mesh = meshio.read(path)
+    except KeyboardInterrupt:
         raise
     except MemoryError:
         raise InputError(f"{path}: not enough memory for its {os.path.getsize(path)} bytes") from None
@@ -86,20 +87,11 @@ def positions_of(path, mesh):
     return np.ascontiguousarray(np.pad(points, ((0, 0), (0, 3 - points.shape[1]))))
 
 
-def check_count(path, result):
-    """PLY says how many faces there are; what meshio does not know it skips without a word."""
-    if not path.lower().endswith(".ply"):
-        return
-    with open(path, "rb") as file:
-        stated = re.search(rb"element face (\d+)", file.read(1 << 16).split(b"end_header")[0])
-    found = len(result.ends) + len(result.wires) + len(result.points)
-    if stated and int(stated.group(1)) != found:
-        raise InputError(f"{path}: {int(stated.group(1))} faces are stated, and meshio finds {found}")
-
-
 def read_with_meshio(path):
     mesh, said = call_meshio(path)
     result = MeshFile(path, positions_of(path, mesh))
+    if LEFT_OUT.search(said):
+        raise InputError(f"{path}: {said} Elements would be missing: write linear cells and polygons")
     if said:
         result.notes.append(f"meshio says: {said}")
     polygons, wires, points = [], [result.wires], [result.points]
@@ -118,14 +110,4 @@ def read_with_meshio(path):
             raise InputError(f"{path}: cells of the kind {block.type} are not taken: write linear ones ({', '.join(SOLIDS)}, polygons, lines)")
     result.set_polygons(polygons)
     result.wires, result.points = np.concatenate(wires), np.concatenate(points)
-    check_count(path, result)
-    if path.lower().endswith(".stl"):
-        part_corners(result)
     return finish(result)
-
-
-def part_corners(mesh):
-    """As STL has them, each with a vertex of its own: meshio has merged those at one place, each file on its own."""
-    mesh.positions = mesh.positions[mesh.corners]
-    mesh.corners = np.arange(len(mesh.corners))
-    mesh.shares_vertices = False
