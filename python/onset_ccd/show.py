@@ -116,6 +116,8 @@ def window(draw):
     """Opens a window and waits until it is closed."""
     plotter = make_plotter(False)
     draw(plotter)
+    plotter.disable_anti_aliasing()  # it does not go with what follows
+    plotter.enable_depth_peeling(8)  # the order of faces changes as the camera moves
     plotter.show()
 
 
