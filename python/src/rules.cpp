@@ -10,6 +10,7 @@
 #include "conversion/arrays.hpp"
 #include "conversion/fields.hpp"
 #include "conversion/records.hpp"
+#include "conversion/reprs.hpp"
 
 namespace onset_python {
 namespace {
@@ -186,7 +187,11 @@ void bind_rules(nb::module_& m) {
       .ONSET_FIELD(Plane, normal)
       .ONSET_FIELD(Plane, offset)
       .ONSET_FIELD(Plane, group)
-      .ONSET_FIELD(Plane, mask);
+      .ONSET_FIELD(Plane, mask)
+      .def("__repr__", [](const Plane& p) {
+        return "Plane([" + text_of(p.normal[0]) + ", " + text_of(p.normal[1]) + ", " + text_of(p.normal[2]) +
+               "], offset=" + text_of(p.offset) + ")";
+      });
   nb::class_<BodySeparation>(m, "BodySeparation", doc("BodySeparation"))
       .def(
           "__init__",
@@ -196,7 +201,11 @@ void bind_rules(nb::module_& m) {
           nb::arg("body_a"), nb::arg("body_b"), nb::arg("separation"))
       .ONSET_FIELD(BodySeparation, body_a)
       .ONSET_FIELD(BodySeparation, body_b)
-      .ONSET_FIELD(BodySeparation, separation);
+      .ONSET_FIELD(BodySeparation, separation)
+      .def("__repr__", [](const BodySeparation& s) {
+        return "BodySeparation(" + std::to_string(s.body_a) + ", " + std::to_string(s.body_b) + ", " +
+               text_of(s.separation) + ")";
+      });
   bind_collision_rules(m);
 }
 

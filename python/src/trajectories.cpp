@@ -24,29 +24,37 @@ class PythonTrajectory : public Trajectory {
 
   std::ptrdiff_t num_vertices() const override {
     const nb::gil_scoped_acquire lock;
-    return nb::cast<std::ptrdiff_t>(self().attr("num_vertices")());
+    return nb::cast<std::ptrdiff_t>(method("num_vertices")());
   }
   int body(std::ptrdiff_t vertex) const override {
     const nb::gil_scoped_acquire lock;
-    return nb::cast<int>(self().attr("body")(vertex));
+    return nb::cast<int>(method("body")(vertex));
   }
   void positions(double t, const int* vertices, std::size_t count, double* xyz) const override {
     const nb::gil_scoped_acquire lock;
-    const DoublesArgument x("positions()", self().attr("positions")(t, list_of(vertices, count)));
+    const DoublesArgument x("positions()", method("positions")(t, list_of(vertices, count)));
     require("positions()", x, std::ptrdiff_t(count), 3);
     const std::vector<double> values = x.list();
     std::copy(values.begin(), values.end(), xyz);
   }
   void straying(double t0, double t1, const int* vertices, std::size_t count, double* bounds) const override {
     const nb::gil_scoped_acquire lock;
-    const DoublesArgument r("straying()", self().attr("straying")(t0, t1, list_of(vertices, count)));
+    const DoublesArgument r("straying()", method("straying")(t0, t1, list_of(vertices, count)));
     require("straying()", r, std::ptrdiff_t(count), 1);
     const std::vector<double> values = r.list();
     std::copy(values.begin(), values.end(), bounds);
   }
 
  private:
-  nb::object self() const { return nb::find(static_cast<const Trajectory*>(this)); }
+  nb::object method(const char* name) const {
+    const nb::object self = nb::find(static_cast<const Trajectory*>(this));
+    if (!nb::hasattr(self, name)) {
+      const std::string text = nb::cast<std::string>(nb::handle(self.type()).attr("__name__")) +
+                               " is a Trajectory and must have " + name + "()";
+      throw nb::type_error(text.c_str());
+    }
+    return self.attr(name);
+  }
   static nb::object list_of(const int* vertices, std::size_t count) {
     return taken_array(std::vector<int>(vertices, vertices + count));
   }
@@ -76,8 +84,18 @@ int add_body(RigidTrajectory& motion, nb::handle vertices, nb::handle rotation, 
                          vector("translation", translation), vector("centre", centre));
 }
 
+// What a class of the caller's own has to have, with the words of the header.
+const char* what_to_write() {
+  static const std::string text =
+      std::string(doc("Trajectory")) + "\n\nWhat it must have:\n\nnum_vertices()\n\nbody(vertex):\n" +
+      doc("Trajectory.body") + "\n\npositions(t, vertices), an array of len(vertices) x 3:\n" +
+      doc("Trajectory.positions") + "\n\nstraying(t0, t1, vertices), an array of len(vertices):\n" +
+      doc("Trajectory.straying");
+  return text.c_str();
+}
+
 void bind_classes(nb::module_& m) {
-  nb::class_<Trajectory, PythonTrajectory>(m, "Trajectory", doc("Trajectory"))
+  nb::class_<Trajectory, PythonTrajectory>(m, "Trajectory", what_to_write())
       .def(nb::init<>())
       .def_prop_ro_static(
           "kLinear", [](nb::handle) { return int(Trajectory::kLinear); }, doc("Trajectory.kLinear"))

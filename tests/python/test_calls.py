@@ -281,7 +281,7 @@ def test_what_a_trajectory_raises_leaves_the_call(falling):
         onset_ccd.compute_collision_free_stepsize(mesh, Broken(falling.x_t0))
     with pytest.raises(ValueError, match="straying"):
         onset_ccd.compute_collision_free_stepsize(mesh, Short(falling.x_t0))
-    with pytest.raises(AttributeError, match="num_vertices"):
+    with pytest.raises(TypeError, match="Empty is a Trajectory and must have num_vertices"):
         onset_ccd.compute_collision_free_stepsize(mesh, Empty())
 
 
