@@ -1,0 +1,138 @@
+// One pair of primitives asked about in the way that ipc-toolkit's classes ask: a time of impact that leaves
+// a share of the gap, within a time limit. onset/compat/ipc.hpp and onset/compat/ipc_toolkit.hpp answer by
+// these.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <onset/options.hpp>
+#include <onset/query.hpp>
+#include <onset/step_size.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace onset::compat {
+
+// Both ends of the motion of one pair. vertex_face: v, f0, f1, f2; edge_edge: a0, a1, b0, b1, where a point
+// is an edge of twice the same; vertex_edge, in the plane: v, e0, e1, the fourth not used.
+struct PairMotion {
+  PairKind kind = PairKind::vertex_face;
+  std::array<Point, 4> t0{}, t1{};
+  // Which of the pair's vertices each of the four is.
+  std::array<std::size_t, 4> vertex{0, 1, 2, 3};
+};
+
+template <class Derived>
+Point point_of(const Eigen::DenseBase<Derived>& x) {
+  const auto& p = x.derived();
+  if (p.size() != 3 && p.size() != 2)
+    throw std::invalid_argument("a point has 2 or 3 coordinates, not " + std::to_string(p.size()));
+  Point r{};
+  for (Eigen::Index i = 0; i < p.size(); ++i) r[std::size_t(i)] = double(p(i));
+  return r;
+}
+
+// Points of a query, all with as many coordinates as the first.
+template <class P, class... More>
+std::array<Point, 1 + sizeof...(More)> points_of(const P& first, const More&... more) {
+  if (((more.size() != first.size()) || ...))
+    throw std::invalid_argument("the points of a query have all 2 or all 3 coordinates");
+  return {point_of(first), point_of(more)...};
+}
+
+// Makes the motion of a pair from points of type P, VectorXd and its like: in the plane where they have two
+// coordinates.
+template <class P>
+PairMotion moving_points(const P& p_t0, const P& q_t0, const P& p_t1, const P& q_t1) {
+  const auto x = points_of(p_t0, q_t0, p_t1, q_t1);
+  if (p_t0.size() == 2)
+    return {PairKind::vertex_edge, {x[0], x[1], x[1], x[1]}, {x[2], x[3], x[3], x[3]}, {0, 1, 1, 1}};
+  return {PairKind::edge_edge, {x[0], x[0], x[1], x[1]}, {x[2], x[2], x[3], x[3]}, {0, 0, 1, 1}};
+}
+template <class P>
+PairMotion moving_point_and_edge(const P& p_t0, const P& e0_t0, const P& e1_t0, const P& p_t1, const P& e0_t1,
+                                 const P& e1_t1) {
+  const auto x = points_of(p_t0, e0_t0, e1_t0, p_t1, e0_t1, e1_t1);
+  if (p_t0.size() == 2)
+    return {PairKind::vertex_edge, {x[0], x[1], x[2], x[2]}, {x[3], x[4], x[5], x[5]}, {0, 1, 2, 2}};
+  return {PairKind::edge_edge, {x[0], x[0], x[1], x[2]}, {x[3], x[3], x[4], x[5]}, {0, 0, 1, 2}};
+}
+
+inline QueryResult ask(const PairMotion& motion, const Options& options) {
+  if (motion.kind == PairKind::vertex_face) return vertex_face_ccd({motion.t0, motion.t1}, options);
+  if (motion.kind == PairKind::edge_edge) return edge_edge_ccd({motion.t0, motion.t1}, options);
+  VertexEdgeQuery q;
+  for (std::size_t i = 0; i < 3; ++i)
+    q.t0[i] = {motion.t0[i][0], motion.t0[i][1]}, q.t1[i] = {motion.t1[i][0], motion.t1[i][1]};
+  return vertex_edge_ccd(q, options);
+}
+
+// Measures a pair where it stands: `gap` is its distance and `weights` its closest points, as Contact says of
+// toi 0. `outcome` is non_finite or out_of_range where there are none.
+inline QueryResult at_rest(const PairMotion& motion, Options options = {}) {
+  // Every pair is within the largest separation there is.
+  options.min_separation = std::ldexp(1.0, 1020);
+  return ask({motion.kind, motion.t0, motion.t0, motion.vertex}, options);
+}
+
+// The distance of a pair, and the weights of its vertices whose sum is the vector between the closest points.
+// NaN where positions are not usable.
+struct Nearest {
+  double distance = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 4> weights{};
+};
+inline Nearest nearest(const PairMotion& pair) {
+  const QueryResult r = at_rest(pair);
+  Nearest n;
+  if (r.outcome == PairOutcome::non_finite || r.outcome == PairOutcome::out_of_range) return n;
+  n.distance = r.gap;
+  for (std::size_t i = 0; i < 4; ++i) n.weights[pair.vertex[i]] += r.weights[i];
+  return n;
+}
+
+// Computes how far a pair may go: never later than the first time at which it comes as close as min_distance,
+// by the exact motion. Infinite where it does not in [0, 1], and keeps gap_share in [0, 1) of its gap beyond
+// min_distance as well; 0 for positions that are not usable, and where the gap is too small to keep a share
+// of. A pair that is within min_distance already, apart, and parts, may go on to its next contact.
+//
+// options: tolerance, max_checks and exactness are used. Throws std::invalid_argument for values out of
+// range, and for tmax outside of [0, 1]. What is later than tmax is infinite.
+inline double time_of_impact(const PairMotion& motion, double min_distance, double tmax, double gap_share,
+                             Options options) {
+  if (!(tmax >= 0 && tmax <= 1))
+    throw std::invalid_argument("tmax is " + std::to_string(tmax) + ", not in [0, 1]");
+  if (!(gap_share >= 0 && gap_share < 1))
+    throw std::invalid_argument("conservative_rescaling is " + std::to_string(1 - gap_share) +
+                                ", not in (0, 1]");
+  double toi = 0;
+  in_default_float_environment([&] {
+    options.min_separation = min_distance;
+    const double gap = at_rest(motion, options).gap - min_distance;
+    if (!(gap >= 0)) gap_share = 0;
+    // What is rounded here moves the wider separation, and that stays min_distance at least: no contact with
+    // min_distance comes before the one with the wider separation.
+    options.min_separation = min_distance + gap_share * std::max(gap, 0.0);
+    const QueryResult kept = ask(motion, options);
+    toi = kept.toi;
+    if (kept.toi > 0 || kept.outcome != PairOutcome::initial_separating) return;
+    // It starts within rounding of the wider separation, or within min_distance, and parts.
+    options.min_separation = min_distance;
+    const QueryResult plain = ask(motion, options);
+    toi = std::min(kept.step_limit,
+                   plain.outcome == PairOutcome::initial_separating ? plain.step_limit : plain.toi);
+  });
+  return toi <= tmax ? toi : std::numeric_limits<double>::infinity();
+}
+
+// Finishes a query as ipc-toolkit does: whether there is an impact, and when.
+inline bool impact(double& toi, const PairMotion& motion, double min_distance, double tmax,
+                   double conservative_rescaling, const Options& options) {
+  toi = time_of_impact(motion, min_distance, tmax, 1 - conservative_rescaling, options);
+  return toi <= tmax;
+}
+
+}  // namespace onset::compat
