@@ -194,10 +194,9 @@ TEST_CASE("narrow phases have ipc-toolkit's defaults", "[unit]") {
   CHECK((told.tolerance == 1e-3 && told.max_iterations == 200 && told.conservative_rescaling == 0.5));
   const ipc::AdditiveCCD additive;
   CHECK((additive.max_iterations == -1 && additive.conservative_rescaling == 0.9));
-  CHECK(told.onset_options()->max_checks == 200);
-  CHECK(tight.onset_options()->max_checks == Options().max_checks);
-  CHECK(
-      (additive.onset_options()->max_checks == Options().max_checks && !additive.onset_options()->tolerance));
+  CHECK(told.options().max_checks == 200);
+  CHECK(tight.options().max_checks == Options().max_checks);
+  CHECK((additive.options().max_checks == Options().max_checks && !additive.options().tolerance));
 }
 
 TEST_CASE("queries by ipc-toolkit's names refuse what they cannot answer", "[unit]") {

@@ -59,8 +59,15 @@ class NarrowPhaseCCD {
 // NaN, infinities and |x| > 2^1020: true, toi 0.
 // Throws std::invalid_argument for values out of range, or points of another number of coordinates. Safe to
 // call concurrently.
+//
+// A class derived from one of these that answers a query in another way has to return nothing from
+// onset_options, else the calls on meshes do not ask it.
 class CertifiedCCD : public NarrowPhaseCCD {
  public:
+  // Of each query.
+  virtual Options options() const = 0;
+  std::optional<Options> onset_options() const override { return options(); }
+
   bool point_point_ccd(const Vector& p0_t0, const Vector& p1_t0, const Vector& p0_t1, const Vector& p1_t1,
                        double& toi, double min_distance = 0, double tmax = 1) const override {
     return impact(toi, compat::moving_points(p0_t0, p1_t0, p0_t1, p1_t1), min_distance, tmax);
@@ -75,37 +82,25 @@ class CertifiedCCD : public NarrowPhaseCCD {
                           const Vector3& t2_t0, const Vector3& p_t1, const Vector3& t0_t1,
                           const Vector3& t1_t1, const Vector3& t2_t1, double& toi, double min_distance = 0,
                           double tmax = 1) const override {
-    return impact(toi, four(PairKind::vertex_face, p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1, t2_t1),
-                  min_distance, tmax);
+    return impact(
+        toi, compat::moving_four(PairKind::vertex_face, p_t0, t0_t0, t1_t0, t2_t0, p_t1, t0_t1, t1_t1, t2_t1),
+        min_distance, tmax);
   }
   bool edge_edge_ccd(const Vector3& ea0_t0, const Vector3& ea1_t0, const Vector3& eb0_t0,
                      const Vector3& eb1_t0, const Vector3& ea0_t1, const Vector3& ea1_t1,
                      const Vector3& eb0_t1, const Vector3& eb1_t1, double& toi, double min_distance = 0,
                      double tmax = 1) const override {
     return impact(toi,
-                  four(PairKind::edge_edge, ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1, eb1_t1),
+                  compat::moving_four(PairKind::edge_edge, ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1,
+                                      eb0_t1, eb1_t1),
                   min_distance, tmax);
   }
 
  private:
-  template <class... P>
-  static compat::PairMotion four(PairKind kind, const P&... p) {
-    const std::array<Point, 8> all{compat::point_of(p)...};
-    return {kind, {all[0], all[1], all[2], all[3]}, {all[4], all[5], all[6], all[7]}};
-  }
   bool impact(double& toi, const compat::PairMotion& motion, double min_distance, double tmax) const {
-    return compat::impact(toi, motion, min_distance, tmax, conservative_rescaling, *onset_options());
+    return compat::impact(toi, motion, min_distance, tmax, conservative_rescaling, options());
   }
 };
-
-// Options with a number of iterations that ipc-toolkit passes as the checks that one pair may cost. Its
-// default, ten million, and -1 for no limit, stand for Onset's default: a query then ends within
-// milliseconds, early rather than late.
-inline Options options_of_iterations(long max_iterations, long default_iterations) {
-  Options options;
-  if (max_iterations != default_iterations && max_iterations != -1) options.max_checks = max_iterations;
-  return options;
-}
 
 // What the root finder of Wang, Ferguson, Schneider, Jiang, Attene, Panozzo, "A Large-Scale Benchmark and an
 // Inclusion-Based Algorithm for Continuous Collision Detection", ACM Transactions on Graphics 40(5), 2021, is
@@ -124,8 +119,8 @@ class TightInclusionCCD : public CertifiedCCD {
       : tolerance(tolerance), max_iterations(max_iterations) {
     this->conservative_rescaling = conservative_rescaling;
   }
-  std::optional<Options> onset_options() const override {
-    Options options = options_of_iterations(max_iterations, DEFAULT_MAX_ITERATIONS);
+  Options options() const override {
+    Options options = compat::options_of_iterations(max_iterations, DEFAULT_MAX_ITERATIONS);
     options.tolerance = tolerance;
     return options;
   }
@@ -149,8 +144,8 @@ class AdditiveCCD : public CertifiedCCD {
       : max_iterations(max_iterations) {
     this->conservative_rescaling = conservative_rescaling;
   }
-  std::optional<Options> onset_options() const override {
-    return options_of_iterations(max_iterations, DEFAULT_MAX_ITERATIONS);
+  Options options() const override {
+    return compat::options_of_iterations(max_iterations, DEFAULT_MAX_ITERATIONS);
   }
 
   long max_iterations;

@@ -62,6 +62,13 @@ PairMotion moving_point_and_edge(const P& p_t0, const P& e0_t0, const P& e1_t0, 
   return {PairKind::edge_edge, {x[0], x[0], x[1], x[2]}, {x[3], x[3], x[4], x[5]}, {0, 0, 1, 2}};
 }
 
+// The four points at the start, then those at the end, in the order of `kind`.
+template <class P, class... More>
+PairMotion moving_four(PairKind kind, const P& first, const More&... more) {
+  const std::array<Point, 8> x = points_of(first, more...);
+  return {kind, {x[0], x[1], x[2], x[3]}, {x[4], x[5], x[6], x[7]}, {0, 1, 2, 3}};
+}
+
 inline QueryResult ask(const PairMotion& motion, const Options& options) {
   if (motion.kind == PairKind::vertex_face) return vertex_face_ccd({motion.t0, motion.t1}, options);
   if (motion.kind == PairKind::edge_edge) return edge_edge_ccd({motion.t0, motion.t1}, options);
@@ -95,27 +102,27 @@ inline Nearest nearest(const PairMotion& pair) {
 }
 
 // Computes how far a pair may go: never later than the first time at which it comes as close as min_distance,
-// by the exact motion. Infinite where it does not in [0, 1], and keeps gap_share in [0, 1) of its gap beyond
-// min_distance as well; 0 for positions that are not usable, and where the gap is too small to keep a share
-// of. A pair that is within min_distance already, apart, and parts, may go on to its next contact.
+// by the exact motion. Infinite where it does not in [0, 1], and keeps 1 - conservative_rescaling, in [0, 1),
+// of its gap beyond min_distance as well; 0 for positions that are not usable, and where the gap is too small
+// to keep a share of. A pair that is within min_distance already, apart, and parts, may go on to its next
+// contact.
 //
 // options: tolerance, max_checks and exactness are used. Throws std::invalid_argument for values out of
 // range, and for tmax outside of [0, 1]. What is later than tmax is infinite.
-inline double time_of_impact(const PairMotion& motion, double min_distance, double tmax, double gap_share,
-                             Options options) {
+inline double time_of_impact(const PairMotion& motion, double min_distance, double tmax,
+                             double conservative_rescaling, Options options) {
   if (!(tmax >= 0 && tmax <= 1))
     throw std::invalid_argument("tmax is " + std::to_string(tmax) + ", not in [0, 1]");
-  if (!(gap_share >= 0 && gap_share < 1))
-    throw std::invalid_argument("conservative_rescaling is " + std::to_string(1 - gap_share) +
+  if (!(conservative_rescaling > 0 && conservative_rescaling <= 1))
+    throw std::invalid_argument("conservative_rescaling is " + std::to_string(conservative_rescaling) +
                                 ", not in (0, 1]");
   double toi = 0;
   in_default_float_environment([&] {
     options.min_separation = min_distance;
     const double gap = at_rest(motion, options).gap - min_distance;
-    if (!(gap >= 0)) gap_share = 0;
     // What is rounded here moves the wider separation, and that stays min_distance at least: no contact with
     // min_distance comes before the one with the wider separation.
-    options.min_separation = min_distance + gap_share * std::max(gap, 0.0);
+    options.min_separation = min_distance + (1 - conservative_rescaling) * std::max(gap, 0.0);
     const QueryResult kept = ask(motion, options);
     toi = kept.toi;
     if (kept.toi > 0 || kept.outcome != PairOutcome::initial_separating) return;
@@ -128,10 +135,19 @@ inline double time_of_impact(const PairMotion& motion, double min_distance, doub
   return toi <= tmax ? toi : std::numeric_limits<double>::infinity();
 }
 
+// Options with a number of iterations that ipc-toolkit passes as the checks that one pair may cost. Its
+// default, ten million, and -1 for no limit, stand for Onset's default: a query then ends within
+// milliseconds, early rather than late.
+inline Options options_of_iterations(long max_iterations, long default_iterations) {
+  Options options;
+  if (max_iterations != default_iterations && max_iterations != -1) options.max_checks = max_iterations;
+  return options;
+}
+
 // Finishes a query as ipc-toolkit does: whether there is an impact, and when.
 inline bool impact(double& toi, const PairMotion& motion, double min_distance, double tmax,
                    double conservative_rescaling, const Options& options) {
-  toi = time_of_impact(motion, min_distance, tmax, 1 - conservative_rescaling, options);
+  toi = time_of_impact(motion, min_distance, tmax, conservative_rescaling, options);
   return toi <= tmax;
 }
 

@@ -34,7 +34,7 @@ void add_candidates(const ipc::Candidates& c, Answer& a) {
   for (const auto& p : c.ev_candidates) a.add(p.edge_id, p.vertex_id);
   for (const auto& p : c.ee_candidates) a.add(p.edge0_id, p.edge1_id);
   for (const auto& p : c.fv_candidates) a.add(p.face_id, p.vertex_id);
-  for (const auto& p : c.pv_candidates) a.add(p.plane_id, p.vertex_id);
+  for (const auto& p : c.pv_candidates) a.add(p.plane.offset(), p.vertex_id);
 }
 
 }  // namespace
@@ -77,6 +77,17 @@ void ask_adapter(const Mesh&, const Subject& s, const Options&, Answer& a) {
     a.add(candidates.compute_collision_free_stepsize(mesh, x_t0, x_t1),
           candidates.is_step_collision_free(mesh, x_t0, x_t1));
     a.add(candidates.compute_cfl_stepsize(mesh, x_t0, x_t1, s.d_hat));
+    a.add(candidates.compute_noncandidate_conservative_stepsize(mesh, x_t0, s.d_hat),
+          candidates.compute_per_vertex_safe_distances(mesh, x_t0, s.d_hat, 0.25 * s.d_hat));
+    for (std::size_t i = 0; i < candidates.size(); i += 1 + candidates.size() / 8) {
+      const ipc::CollisionStencil& pair = candidates[i];
+      double toi = -1;
+      a.add(pair.ccd(pair.dof(x_t0, mesh.edges(), mesh.faces()), pair.dof(x_t1, mesh.edges(), mesh.faces()),
+                     toi, 0.125 * s.d_hat, 0.75, ipc::AdditiveCCD()));
+      a.add(toi, pair.compute_coefficients(x_t0, mesh.edges(), mesh.faces()));
+    }
+    const ipc::SweepAndPrune broad_phase;
+    a.add(ipc::compute_collision_free_stepsize(mesh, x_t0, x_t1, 0, &broad_phase, ipc::AdditiveCCD()));
     candidates.clear();
   }
 }

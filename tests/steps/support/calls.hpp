@@ -38,7 +38,7 @@ class Calls {
   Mesh& mesh() { return mesh_; }  // to be told more; the adapter's is not
   const Mesh& mesh() const { return mesh_; }
   // That of the call: the adapter tests points against edges and each other as well.
-  const Mesh& mesh(Call call) const { return is_adapter(call) ? adapter_.onset_mesh() : mesh_; }
+  Mesh mesh(Call call) const { return is_adapter(call) ? adapter_.onset_mesh() : mesh_; }
   static bool is_adapter(Call call) { return call == Call::adapter || call == Call::filtered; }
   // d_hat: of the close pairs, > 0; gap_share: of all calls that have one. The adapter takes a
   // tolerance, a number of checks and a Euclidean separation.
