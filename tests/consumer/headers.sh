@@ -12,6 +12,8 @@ trap 'rm -f "$preprocessed"' EXIT
 count=0
 for header in "$source"/include/onset/*.hpp "$source"/include/onset/compat/*.hpp; do
   name=${header#"$source"/include/}
+  # It includes another library's headers: the test toolkit_plugin compiles it with those.
+  [ "$name" != onset/compat/ipc_toolkit.hpp ] || continue
   for std in c++17 c++20; do
     # Twice: it is guarded against itself.
     printf '#include <%s>\n#include <%s>\n' "$name" "$name" |
