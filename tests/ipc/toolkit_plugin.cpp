@@ -1,10 +1,6 @@
 // The plug-in classes of onset/compat/ipc_toolkit.hpp in ipc-toolkit's own functions, on random scenes:
 // brute force's pairs, and times and steps like those of Onset's own calls, never later than the exact ones.
 // Built by toolkit_plugin.py.
-#include <onset/compat/ipc.hpp>
-#include <onset/compat/ipc_toolkit.hpp>
-#include <onset/onset.hpp>
-// After Onset's, as a simulator may have it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +10,9 @@
 #include <ipc/broad_phase/lbvh.hpp>
 #include <ipc/candidates/candidates.hpp>
 #include <ipc/ipc.hpp>
+#include <onset/compat/ipc.hpp>
+#include <onset/compat/ipc_toolkit.hpp>
+#include <onset/onset.hpp>
 #include <random>
 #include <string>
 #include <vector>

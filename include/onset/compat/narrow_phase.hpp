@@ -54,9 +54,10 @@ class NarrowPhaseCCD {
 //
 // Guarantee: toi is never later than the exact time at which the pair comes as close as min_distance, and at
 // toi it keeps 1 - conservative_rescaling of the gap beyond that. False only where the pair certainly stays
-// beyond both up to tmax. A pair that touches at the start, or starts within min_distance and closes: true,
-// toi 0. One that is within min_distance, apart, and parts, is not held back: its impact is the next one.
-// NaN, infinities and |x| > 2^1020: true, toi 0.
+// beyond both up to tmax. A pair that touches at the start, or closes from within min_distance or within
+// rounding of it: true, toi 0. One that is within min_distance, apart, and parts, is not held back: its
+// impact is the next one. NaN, infinities and |x| > 2^1020: true, toi 0. This is of the exact motion: what
+// storing x + toi dx changes is not looked at, as it is by the calls on meshes.
 // Throws std::invalid_argument for values out of range, or points of another number of coordinates. Safe to
 // call concurrently.
 //
