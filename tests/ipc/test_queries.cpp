@@ -112,7 +112,7 @@ TEST_CASE("queries by ipc-toolkit's names are never late and keep a share of the
   const ipc::NarrowPhaseCCD* const narrow_phases[] = {&tight, &additive, &all_of_it};
   scenes::Random random(7);
   Tally tally;
-  for (int i = 0; i < tests::fuzz(150); ++i)
+  for (int i = 0; i < std::max(150, tests::fuzz(150)); ++i)
     for (const Asked asked : kAll)
       for (const bool in_plane : {false, true}) {
         if (in_plane && (asked == Asked::point_triangle || asked == Asked::edge_edge)) continue;
@@ -134,7 +134,7 @@ TEST_CASE("queries by ipc-toolkit's names are never late where others fail", "[o
   for (const scenes::Family& family : scenes::families())
     for (const PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
       scenes::Random random = scenes::seeded(family, kind, 11);
-      for (int i = 0; i < tests::fuzz(12); ++i) {
+      for (int i = 0; i < std::max(12, tests::fuzz(12)); ++i) {
         const scenes::Query q = family.make(kind, random);
         bool extreme = false;  // of the oracle's distances, too
         for (const auto& x : {q.t0, q.t1})
@@ -227,7 +227,7 @@ TEST_CASE("queries by ipc-toolkit's names refuse what they cannot answer", "[uni
 TEST_CASE("a vertex keeps its share of its distance from a plane, exactly", "[oracle][property]") {
   scenes::Random random(3);
   int impacts = 0, free = 0;
-  for (int i = 0; i < tests::fuzz(300); ++i) {
+  for (int i = 0; i < std::max(300, tests::fuzz(300)); ++i) {
     const auto draw = [&] { return vector(scenes::point(random, 2)); };
     const Eigen::Hyperplane<double, 3> plane(draw(), scenes::uniform(random, -1, 1));
     const Vector3d p = draw(), q = draw();
