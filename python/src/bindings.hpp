@@ -27,6 +27,7 @@ void bind_maps(nb::module_& m);
 void bind_starts(nb::module_& m);
 void bind_queries(nb::module_& m);
 void bind_trajectories(nb::module_& m);
+void bind_toolkit(nb::module_& m);
 
 // Runs f without the interpreter's lock.
 template <class F>

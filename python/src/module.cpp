@@ -20,6 +20,7 @@ NB_MODULE(_onset, m) {
   bind_starts(m);
   bind_queries(m);
   bind_trajectories(m);
+  bind_toolkit(m);
   m.def("_option_docs", &option_docs, "The comment of each option, by name.");
   m.def(
       "_viewed",
