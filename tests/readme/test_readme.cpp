@@ -77,3 +77,12 @@ TEST_CASE("every fragment of C++ in the documents runs", "[unit]") {
   });
   CHECK(count >= 1);
 }
+
+TEST_CASE("every program in the documents ends well", "[unit]") {
+  int count = 0;
+  for_all_programs([&](int (*program)()) {
+    CHECK(program() == 0);
+    ++count;
+  });
+  CHECK(count >= 1);
+}
