@@ -5,7 +5,8 @@
 
 - Every folder with sources has its sentence in the table of folders, and every folder of that table is there. So is every file that a page
   names by its path from the root.
-- No folder holds more than 18 files, beside its CMakeLists.txt; include/onset/, with a header a public call, 30. No C++ file is longer than 400 lines.
+- No folder holds more than 18 files, beside its CMakeLists.txt; include/onset/, with a header a public call, 30, and scripts/, with a
+  script a command, 24. No C++ file is longer than 400 lines.
 - Every include goes down or stays in its room, as the table of who may include whom says. TBB and intrinsics have one place each.
 - Words that have been replaced do not come back.
 """
@@ -14,13 +15,13 @@ import pathlib
 import re
 import sys
 
-TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", "python", "tests", "cmake", "scripts"]
+TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", "python", "tests", "cmake", "scripts", "docs"]
 CPP = {".cpp", ".hpp", ".inl"}
 SOURCES = CPP | {".py", ".sh", ".cmake", ".txt", ".in"}
 LIBRARY = ("include/", "base/", "scene/", "broadphase/", "narrowphase/", "src/")
 MOST_FILES, MOST_LINES = 18, 400
-# A header a public call.
-MORE_FILES = {"include/onset/": 30}
+# A header a public call, a script a command.
+MORE_FILES = {"include/onset/": 30, "scripts/": 24}
 
 # What only one place of the library may include.
 ONE_PLACE = {r"<tbb/": ("base/threads/parallel_tbb.cpp",), r"<\w*intrin\.h>": ("base/simd/",)}

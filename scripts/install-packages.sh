@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python, site
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
@@ -11,6 +11,7 @@ clang="clang libclang-rt-dev"
 tidy="clang clang-tidy"
 profile="linux-perf valgrind"
 python="python3 python3-dev python3-venv ca-certificates libegl1 libgl1-mesa-dri"
+site="doxygen python3 python3-venv ca-certificates"
 
 wanted=
 for group; do
@@ -23,6 +24,7 @@ for group; do
     tidy) wanted="$wanted $tidy" ;;
     profile) wanted="$wanted $profile" ;;
     python) wanted="$wanted $python" ;;
+    site) wanted="$wanted $site" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
 done

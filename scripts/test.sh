@@ -2,7 +2,7 @@
 # Sets up, builds and tests everything. Options are handed to ctest.
 set -eu
 cd "$(dirname "$0")/.."
-scripts/install-packages.sh library apps tests python
+scripts/install-packages.sh library apps tests python site
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
 tests/make_venv.sh build/venv-python tests/python/requirements.txt
 cmake -S . -B build -DONSET_BUILD_TESTS=ON -DONSET_BUILD_APPS=ON -DONSET_BUILD_PYTHON=ON "-DPython_EXECUTABLE=$PWD/build/venv-python/bin/python"
