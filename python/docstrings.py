@@ -43,12 +43,14 @@ def names_of(declaration, in_enum):
 
 def members(header):
     """(qualified name, comment) for each declaration with a comment above it."""
-    scopes, comment, depth = [], [], 0
+    scopes, comment, of_enumerators, depth = [], [], [], 0  # enumerators without a comment share that of those before
     for line in header.read_text().splitlines():
         text = line.strip()
         if text.startswith("//"):
             comment.append(text[3:] if text.startswith("// ") else text[2:])
             continue
+        if not text:
+            of_enumerators = []
         if not text or text.startswith(("#", "template", "namespace", "public:", "private:", "}")):
             keep = text.startswith("template")
         else:
@@ -61,9 +63,11 @@ def members(header):
                 names = [scope.group(1)]
             else:
                 names = names_of(re.sub(r"\s*//.*", "", text), in_enum) if inside else []
-            if comment:
+            shared = comment or (of_enumerators if in_enum and not scope else [])
+            of_enumerators = shared if in_enum and not scope else []
+            if shared:
                 for name in names:
-                    yield prefix + name, "\n".join(comment)
+                    yield prefix + name, "\n".join(shared)
             if scope and text.count("{") > text.count("}"):
                 scopes.append((scope.group(1), depth, text.startswith("enum")))
         if not keep:
@@ -91,7 +95,10 @@ def main(output, *headers):
         "const char* doc(const char* name) {\n"
         "  static const std::unordered_map<std::string, const char*> docs = {\n" + rows + "  };\n"
         "  const auto found = docs.find(name);\n"
-        '  return found == docs.end() ? "" : found->second;\n'
+        "  if (found != docs.end()) return found->second;\n"
+        "  // Members may go without; a class or a call of this name is gone.\n"
+        "  if (std::string(name).find('.') == std::string::npos) throw std::logic_error(std::string(name) + \" has no comment\");\n"
+        '  return "";\n'
         "}\n\n}  // namespace onset_python\n"
     )
 

@@ -8,7 +8,9 @@ build=${1:-build}
 scripts/install-packages.sh site
 tests/make_venv.sh "$build/venv-site" docs/site/requirements.txt
 package=$build/python/onset_ccd
-if [ ! -f "$package/_onset.pyi" ]; then
+if grep -q "ONSET_BUILD_PYTHON:BOOL=ON" "$build/CMakeCache.txt" 2>/dev/null; then
+  cmake --build "$build" --target onset_python onset_stub --parallel "$(nproc)" >"$build/venv-site/build.log" || { cat "$build/venv-site/build.log"; exit 1; }
+elif [ ! -f "$package/_onset.pyi" ]; then
   scripts/install-packages.sh library python
   tests/make_venv.sh "$build/venv-python" tests/python/requirements.txt
   CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}" cmake -S . -B "$build" -DONSET_BUILD_PYTHON=ON \

@@ -23,6 +23,12 @@ class Positions {
   Positions(const double* xyz, std::ptrdiff_t vertices, int columns = 3) noexcept
       : data_(xyz), rows_(vertices), cols_(columns), row_stride_(columns), col_stride_(1) {}
 
+  // From memory of any layout: (r, c) is at data + r row_stride + c col_stride, in doubles, which may be
+  // below 0.
+  Positions(const double* data, std::ptrdiff_t rows, std::ptrdiff_t cols, std::ptrdiff_t row_stride,
+            std::ptrdiff_t col_stride) noexcept
+      : data_(data), rows_(rows), cols_(cols), row_stride_(row_stride), col_stride_(col_stride) {}
+
   // From any Eigen matrix (column- or row-major, a Map, a block, float or double) of #V x 3, or from a flat
   // vector of 3 #V degrees of freedom (x y z of vertex 0, x y z of vertex 1, ...). Those of a mesh in the
   // plane are not flat.

@@ -14,7 +14,7 @@ class Options(TypedDict, total=False):
     """Keyword arguments of the calls, by the names of onset::Options; an enumerator may be given by its name, as "exact".
 
     A dictionary of them can be kept: ``options = Options(min_separation=1e-3)``, ``close_pairs(mesh, x, d_hat, **options)``.
-    A call runs handlers of signals while it works, so that KeyboardInterrupt ends it.
+    progress cancels a call by returning what is false, None apart. A call runs handlers of signals while it works, so that KeyboardInterrupt ends it.
     """
 
     tolerance: "float | None"

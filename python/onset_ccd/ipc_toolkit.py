@@ -28,15 +28,19 @@ class NarrowPhaseCCD(ipctk.NarrowPhaseCCD):
     motion; storing x + toi dx is not looked at. ValueError for values out of range; NaN and infinities give 0.
 
     ipctk holds the interpreter's lock while its threads ask, so that with more than one of them a call would wait for ever: RuntimeError
-    unless ipctk.set_num_threads(1) was called before.
+    here unless ipctk.set_num_threads(1) was called before. Leave it at 1 as long as this is used.
     """
 
     def __init__(self, tolerance=ipctk.TightInclusionCCD.DEFAULT_TOLERANCE, max_iterations=ipctk.TightInclusionCCD.DEFAULT_MAX_ITERATIONS,
                  conservative_rescaling=ipctk.TightInclusionCCD.DEFAULT_CONSERVATIVE_RESCALING):
         super().__init__()
+        self._require_one_thread()
+        self.tolerance, self.max_iterations, self.conservative_rescaling = tolerance, max_iterations, conservative_rescaling
+
+    @staticmethod
+    def _require_one_thread():
         if ipctk.get_num_threads() != 1:
             raise RuntimeError("a narrow phase in Python needs one thread in ipctk, which would wait for itself: ipctk.set_num_threads(1)")
-        self.tolerance, self.max_iterations, self.conservative_rescaling = tolerance, max_iterations, conservative_rescaling
 
     def _ask(self, kind, t0, t1, min_distance, tmax):
         toi = _onset._time_of_impact(kind, np.array(t0), np.array(t1), min_distance, tmax, self.conservative_rescaling, self.tolerance,
@@ -70,16 +74,30 @@ class BroadPhase(ipctk.BroadPhase):
     def name(self):
         return "Onset"
 
-    def build(self, *arguments):
-        *positions, edges, faces, radius = arguments
+    def build(self, *arguments, inflation_radius=0.0, **named):
+        """As ipctk.BroadPhase.build: (vertices, edges, faces) or (vertices_t0, vertices_t1, edges, faces), and inflation_radius."""
+        given = [*arguments, *(named[name] for name in ("vertices", "vertices_t0", "vertices_t1", "edges", "faces") if name in named)]
+        if len(given) in (4, 5) and np.ndim(given[-1]) == 0:
+            inflation_radius = given.pop()
+        if len(given) not in (3, 4):
+            raise TypeError("BroadPhase.build: one or two arrays of positions, edges, faces and inflation_radius are expected")
+        *positions, edges, faces = given
+        radius = float(inflation_radius)
+        positions = [np.asarray(x, float) for x in positions]
+        edges, faces = (np.reshape(np.asarray(ids, int), (-1, n)) for ids, n in ((edges, 2), (faces, 3)))
+        if any(x.ndim != 2 or x.shape != positions[0].shape for x in positions) or not radius >= 0:
+            raise ValueError("BroadPhase.build: positions are #V x dim, the same at both ends, and inflation_radius is not below 0")
+        for name, ids in (("edges", edges), ("faces", faces)):
+            if ids.size and not (0 <= ids.min() and ids.max() < len(positions[0])):
+                raise ValueError(f"BroadPhase.build: {name} name vertices that are not there")
         if not all(np.isfinite(x).all() for x in positions):
             raise ValueError("BroadPhase.build: a position is not finite")
-        super().build(*arguments)
+        super().build(*positions, edges, faces, radius)
         lo, hi = np.minimum.reduce(positions), np.maximum.reduce(positions)
         lo, hi = np.nextafter(lo - radius, -np.inf), np.nextafter(hi + radius, np.inf)
         flat = ((0, 0), (0, 3 - lo.shape[1]))
         lo, hi = np.pad(lo, flat), np.pad(hi, flat)
-        self._ids = {"vertex": np.arange(len(lo))[:, None], "edge": np.reshape(edges, (-1, 2)), "face": np.reshape(faces, (-1, 3))}
+        self._ids = {"vertex": np.arange(len(lo))[:, None], "edge": edges, "face": faces}
         self._boxes = {kind: np.hstack([lo[ids].min(axis=1), hi[ids].max(axis=1)]) for kind, ids in self._ids.items()}
 
     def clear(self):

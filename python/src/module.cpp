@@ -7,6 +7,7 @@ NB_MODULE(_onset, m) {
   using namespace onset_python;
   nb::set_leak_warnings(false);  // what the interpreter still holds when it ends is no fault of the program
   m.doc() = "Conservative continuous collision detection: the calls of include/onset, on numpy arrays.";
+  m.attr("__version__") = ONSET_VERSION;
   bind_enums(m);
   bind_results(m);
   bind_rules(m);

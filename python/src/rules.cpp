@@ -18,7 +18,7 @@ namespace {
 using onset::BodySeparation, onset::CollisionRules, onset::Plane;
 
 nb::object array_from(const std::vector<bool>& values) {
-  return taken_array(std::vector<std::uint8_t>(values.begin(), values.end())).attr("astype")("bool");
+  return taken_array(std::vector<std::uint8_t>(values.begin(), values.end())).attr("view")("bool");
 }
 template <class T>
 nb::object array_from(const std::vector<T>& values) {
@@ -59,10 +59,10 @@ std::vector<BodySeparation> body_separations_of(nb::handle values) {
 }
 
 template <class T>
-nb::list list_from(const std::vector<T>& values) {
+nb::tuple tuple_from(const std::vector<T>& values) {
   nb::list list;
   for (const T& value : values) list.append(nb::cast(value));
-  return list;
+  return nb::tuple(list);
 }
 
 nb::object rest_of(const CollisionRules& rules) {
@@ -91,8 +91,16 @@ void set_rest(CollisionRules& rules, nb::handle x) {
       nb::for_getter(nb::sig("def " #member "(self) -> numpy.typing.NDArray")),                           \
       doc("CollisionRules." #member))
 
+const char* what_rules_are() {
+  static const std::string text =
+      std::string(doc("CollisionRules")) +
+      "\n\nMembers are assigned as a whole, from anything that is like an array; what they give is read-only. Mesh.rules gives a "
+      "copy: assign it again after a change.";
+  return text.c_str();
+}
+
 void bind_collision_rules(nb::module_& m) {
-  nb::class_<CollisionRules>(m, "CollisionRules", doc("CollisionRules"))
+  nb::class_<CollisionRules>(m, "CollisionRules", what_rules_are())
       .def(
           "__init__",
           [](CollisionRules* rules, const nb::kwargs& members) {
@@ -132,15 +140,15 @@ void bind_collision_rules(nb::module_& m) {
           nb::for_setter(nb::sig("def rest_positions(self, x: numpy.typing.ArrayLike | None, /) -> None")),
           doc("CollisionRules.rest_positions"))
       .def_prop_rw(
-          "planes", [](const CollisionRules& r) { return list_from(r.planes); },
+          "planes", [](const CollisionRules& r) { return tuple_from(r.planes); },
           [](CollisionRules& r, nb::handle values) { r.planes = planes_of(values); },
-          nb::for_getter(nb::sig("def planes(self) -> list[Plane]")), nb::for_setter(nb::arg().none()),
+          nb::for_getter(nb::sig("def planes(self) -> tuple[Plane, ...]")), nb::for_setter(nb::arg().none()),
           nb::for_setter(nb::sig("def planes(self, planes: Iterable[Plane], /) -> None")),
           doc("CollisionRules.planes"))
       .def_prop_rw(
-          "body_separations", [](const CollisionRules& r) { return list_from(r.body_separations); },
+          "body_separations", [](const CollisionRules& r) { return tuple_from(r.body_separations); },
           [](CollisionRules& r, nb::handle values) { r.body_separations = body_separations_of(values); },
-          nb::for_getter(nb::sig("def body_separations(self) -> list[BodySeparation]")),
+          nb::for_getter(nb::sig("def body_separations(self) -> tuple[BodySeparation, ...]")),
           nb::for_setter(nb::arg().none()),
           nb::for_setter(nb::sig("def body_separations(self, separations: Iterable[BodySeparation | "
                                  "tuple[int, int, float]], /) -> None")),
@@ -169,8 +177,9 @@ void bind_collision_rules(nb::module_& m) {
 }  // namespace
 
 onset::CollisionRules rules_of(nb::handle rules) {
-  if (rules.is_none()) return {};
-  return nb::cast<const CollisionRules&>(rules);
+  onset::CollisionRules read;
+  if (!rules.is_none() && !nb::try_cast(rules, read)) throw nb::type_error("rules must be CollisionRules, or None");
+  return read;
 }
 
 void bind_rules(nb::module_& m) {

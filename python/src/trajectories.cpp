@@ -70,7 +70,7 @@ class PythonTrajectory : public Trajectory {
 nb::object at(const Trajectory& trajectory, double t) {
   if (!(t >= 0 && t <= 1))
     throw std::invalid_argument("t is " + std::to_string(t) + "; it must be in [0, 1]");
-  const auto x = without_lock([&] { return trajectory.at(t); });
+  const auto x = trajectory.at(t);  // with the lock: add_body may not change it meanwhile
   return taken_array(std::vector<double>(x.data(), x.data() + x.size())).attr("reshape")(x.rows(), 3);
 }
 
@@ -103,7 +103,7 @@ void bind_classes(nb::module_& m) {
           "kFree", [](nb::handle) { return int(Trajectory::kFree); }, doc("Trajectory.kFree"))
       .def("at", &at, nb::arg("t"), nb::sig("def at(self, t: float) -> numpy.typing.NDArray[numpy.float64]"),
            doc("Trajectory.at"));
-  nb::class_<RigidTrajectory, Trajectory>(m, "RigidTrajectory", doc("RigidTrajectory"))
+  nb::class_<RigidTrajectory, Trajectory>(m, "RigidTrajectory", nb::is_final(), doc("RigidTrajectory"))
       .def(
           "__init__",
           [](RigidTrajectory* motion, nb::handle x_t0, nb::handle x_t1) {

@@ -203,6 +203,47 @@ TEST_CASE("filters and narrow phases of one's own leave positions that are not u
       }
 }
 
+TEST_CASE("a narrow phase of one's own is asked of pairs that are there, and NaN is an impact", "[unit]") {
+  class Lost : public Counting {
+   public:
+    bool point_triangle_ccd(const Vector3&, const Vector3&, const Vector3&, const Vector3&, const Vector3&,
+                            const Vector3&, const Vector3&, const Vector3&, double& toi, double,
+                            double) const override {
+      return toi = NAN, true;
+    }
+  };
+  const Mixed s(5);
+  const ipc::CollisionMesh mesh = s.mesh();
+  const int vertices = int(mesh.num_vertices()), edges = int(mesh.num_edges()), faces = int(mesh.num_faces());
+  ipc::Candidates one;
+  one.fv_candidates = {{0, vertices - 1}};
+  CHECK(one.compute_collision_free_stepsize(mesh, s.x0, s.x1, 0, Lost()) == 0);
+  const auto refused = [&](const ipc::Candidates& some) {
+    CHECK_THROWS_AS(some.compute_collision_free_stepsize(mesh, s.x0, s.x1, 0, Lost()), std::invalid_argument);
+    CHECK_THROWS_AS(some.is_step_collision_free(mesh, s.x0, s.x1, 0, Lost()), std::invalid_argument);
+    CHECK_THROWS_AS(some.compute_collision_free_stepsize(mesh, s.x0, s.x1), std::invalid_argument);
+  };
+  for (const int wrong : {-1, 1 << 30}) {
+    ipc::Candidates some;
+    some.fv_candidates = {{wrong < 0 ? -1 : faces, 0}}, refused(some);
+    some.fv_candidates = {{0, wrong < 0 ? -1 : vertices}}, refused(some);
+    some.fv_candidates.clear();
+    some.ee_candidates = {{0, wrong < 0 ? -1 : edges}}, refused(some);
+    some.ee_candidates.clear();
+    some.ev_candidates = {{0, wrong}}, refused(some);
+    some.ev_candidates.clear();
+    some.vv_candidates = {{vertices - 1, wrong}}, refused(some);
+  }
+  CHECK_THROWS_AS(mesh.edge_length(edges), std::out_of_range);
+}
+
+TEST_CASE("what safe distances leave of the radius is rounded down", "[unit]") {
+  const ipc::CollisionMesh mesh(MatrixXd::Identity(2, 3), MatrixXi(0, 2), MatrixXi(0, 3));
+  const Eigen::VectorXd r =
+      ipc::Candidates().compute_per_vertex_safe_distances(mesh, MatrixXd::Identity(2, 3) * 100, 1, 0x1p-60);
+  CHECK((r.maxCoeff() < 1 && r.maxCoeff() > 0.9));
+}
+
 TEST_CASE("the step of what is no candidate moves no vertex farther than half of dhat",
           "[oracle][property]") {
   onset::scenes::Random random(5);

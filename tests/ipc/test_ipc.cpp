@@ -140,7 +140,7 @@ TEST_CASE("candidates of positions are those of a motion that stays there", "[un
     still.clear();
     still.vv_candidates = {{6, vertex}};
     CHECK_THROWS_WITH(still.compute_collision_free_stepsize(mesh, x, x),
-                      "vertex " + std::to_string(vertex) + " is none of codim_vertices");
+                      Catch::Contains("vertex " + std::to_string(vertex)));
   }
 }
 

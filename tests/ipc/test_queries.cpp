@@ -213,6 +213,8 @@ TEST_CASE("queries by ipc-toolkit's names refuse what they cannot answer", "[uni
     CHECK_THROWS_AS(ask(ipc::AdditiveCCD(-1, wrong), 0, 1), std::invalid_argument);
   }
   CHECK_THROWS_AS(ask(tight, -1, 1), std::invalid_argument);
+  CHECK_THROWS_AS(ask(tight, -0x1p-20, 1), std::invalid_argument);
+  CHECK_THROWS_AS(ask(tight, 0x1p1021, 1), std::invalid_argument);
   CHECK_THROWS_AS(ask(ipc::TightInclusionCCD(0), 0, 1), std::invalid_argument);
   CHECK_THROWS_AS(ask(ipc::TightInclusionCCD(1e-6, 0), 0, 1), std::invalid_argument);
   CHECK_THROWS_AS(tight.point_point_ccd(a, in_plane, b, in_plane, toi), std::invalid_argument);
@@ -222,6 +224,22 @@ TEST_CASE("queries by ipc-toolkit's names refuse what they cannot answer", "[uni
     toi = -1;
     CHECK((tight.point_point_ccd(a, Vector3d(bad, 0, 0), b, still, toi) && toi == 0));
   }
+}
+
+TEST_CASE("queries by ipc-toolkit's names keep their share however far apart a pair is", "[unit]") {
+  const double far = 0x1p1020;
+  const ipc::TightInclusionCCD ccd;
+  const Vector3d a(-far, -far, -far), b(far, far, far);
+  double toi = -1;
+  CHECK((ccd.point_point_ccd(a, b, a, -0.99 * b, toi) && toi <= 0.80403 && toi > 0.804));
+  CHECK((ccd.point_point_ccd(a, b, a, -0.99 * b, toi, far) && toi <= 0.572 && toi > 0.57));
+  CHECK_FALSE(ccd.point_point_ccd(a, b, a, 0.99 * b, toi));
+  const compat::Nearest n = compat::nearest(compat::moving_points(a, b, a, b));
+  CHECK((n.distance > 3.46 * far && n.distance < 3.47 * far));
+  const Eigen::Hyperplane<double, 3> plane(Vector3d(0, 0, 1), far);
+  CHECK(compat::nearest_to_plane(plane, b).distance == 2 * far);
+  const Eigen::Hyperplane<double, 3> short_normal(Vector3d(0, 0, 0x1p-60), far);
+  CHECK(compat::nearest_to_plane(short_normal, b).distance == INFINITY);
 }
 
 TEST_CASE("a vertex keeps its share of its distance from a plane, exactly", "[oracle][property]") {

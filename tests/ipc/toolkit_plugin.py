@@ -40,14 +40,15 @@ def main():
     flags = ["-std=c++17", "-O1", "-ffunction-sections", f"-I{work / 'lacking'}", f"-I{site}", *options]
 
     # What the package ships is compiled once for each way to compile it.
-    way = hashlib.sha256(repr([compiler, flags, pathlib.Path(stand_ins).read_text()]).encode()).hexdigest()[:12]
+    way = hashlib.sha256(repr([compiler, flags, importlib.metadata.version("ipctk"), pathlib.Path(stand_ins).read_text()]).encode()).hexdigest()[:12]
     objects = work / f"objects-{way}"
     objects.mkdir(exist_ok=True)
 
     def compiled(source, name, *more):
         out = objects / f"{name.replace('/', '_')}.o"
         if not out.exists() or site not in source.parents:
-            subprocess.run([*os.environ.get("LAUNCHER", "").split(), compiler, *flags, *more, "-c", source, "-o", out], check=True)
+            subprocess.run([*os.environ.get("LAUNCHER", "").split(), compiler, *flags, *more, "-c", source, "-o", out.with_suffix(".new")], check=True)
+            out.with_suffix(".new").rename(out)
         return out
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

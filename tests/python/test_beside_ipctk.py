@@ -82,6 +82,13 @@ def test_a_filter_and_two_dimensions_plugged_into_ipctk(one_thread):
     count, step = plugged(flat, flat_t0, flat_t1, ipc_toolkit.BroadPhase(), ipc_toolkit.NarrowPhaseCCD(conservative_rescaling=0.5))
     assert count == plugged(flat, flat_t0, flat_t1, ipctk.BruteForce(), ipctk.TightInclusionCCD())[0] > 0
     assert 0.2499 < step <= 0.25
+    broad = ipc_toolkit.BroadPhase()
+    for arguments, named in (((flat_t0, edges, np.zeros((0, 3), int)), {}), ((flat_t0, flat_t1, edges, []), dict(inflation_radius=0.1)),
+                             ((flat_t0, flat_t1, edges, [], 0.1), {})):
+        broad.build(*arguments, **named)
+        assert (len(broad.detect_edge_vertex_candidates()) > 0) == (len(arguments) > 3)
+    with pytest.raises(ValueError, match="edges name vertices"):
+        broad.build(flat_t0, flat_t1, [[0, -1]], [])
     with pytest.raises(ValueError, match="not finite"):
         plugged(flat, flat_t0, flat_t1 * np.nan, ipc_toolkit.BroadPhase(), ipc_toolkit.NarrowPhaseCCD())
     assert ipc_toolkit.NarrowPhaseCCD().point_triangle_ccd(*np.full((8, 3), np.nan)) == (True, 0.0)

@@ -295,7 +295,7 @@ def test_surfaces_and_maps(falling):
     assert np.array_equal(doubled.positions(falling.x_t0), 2 * falling.x_t0) and doubled.num_dofs == 18
     found = onset_ccd.construct_active_set(onset_ccd.Mesh(falling.x_t0, falling.faces), falling.x_t0, falling.x_t1)
     plain, mapped = onset_ccd.assemble_constraints(found), onset_ccd.assemble_constraints(found, 0.0, doubled)
-    assert np.array_equal(np.sort(mapped.value), np.sort(2 * plain.value[plain.value != 0])) or mapped.rows() == plain.rows()
+    assert np.array_equal(np.sort(mapped.value), np.sort(2 * plain.value[plain.value != 0]))
     assert np.array_equal(doubled.to_dofs(np.ones(18)), np.full(18, 2.0)) and doubled.rounding(falling.x_t0, falling.x_t1) > 0
     row, column, value = doubled.hessian_to_dofs([0, 1], [0, 1], [1.0, 1.0])
     assert list(value) == [4, 4] and list(row) == list(column) == [0, 1]
@@ -303,10 +303,39 @@ def test_surfaces_and_maps(falling):
         onset_ccd.VertexMap(6, [6], [0], [1.0], (6, 6))
 
 
+def test_rules_are_assigned_as_a_whole(falling):
+    rules = onset_ccd.CollisionRules(planes=[onset_ccd.Plane([0, 0, 1])], static_vertices=[True] * 6, body_separations=[(0, 1, 0.5)])
+    assert isinstance(rules.planes, tuple) and isinstance(rules.body_separations, tuple)
+    for array in (rules.static_vertices, rules.bodies, rules.thickness, rules.excluded_bodies):
+        assert not array.flags.writeable
+    assert "Plane([0.0, 0.0, 1.0], offset=0.0)" in repr(rules.planes)
+    mesh = onset_ccd.Mesh(falling.x_t0, falling.faces)
+    with pytest.raises(TypeError, match="rules must be CollisionRules"):
+        mesh.rules = {"weld": True}
+    with pytest.raises(TypeError, match="rules must be CollisionRules"):
+        onset_ccd.Mesh(falling.x_t0, falling.faces, rules=5)
+
+
+def test_rigid_trajectories_have_no_classes_of_their_own():
+    with pytest.raises(TypeError):
+        type("Own", (onset_ccd.RigidTrajectory,), {})
+
+
+def test_the_version_is_that_of_the_library():
+    import importlib.util
+    import pathlib
+    import re
+
+    project = pathlib.Path(__file__).parents[2] / "CMakeLists.txt"
+    assert importlib.util.find_spec("onset_ccd") and onset_ccd.__version__ == re.search(r"project\(onset VERSION ([0-9.]+)", project.read_text())[1]
+
+
 def test_docstrings_come_from_the_headers():
-    assert "never late" in onset_ccd.compute_collision_free_stepsize.__doc__ or "certainly free" in onset_ccd.compute_collision_free_stepsize.__doc__
+    assert "certainly free of contact" in onset_ccd.compute_collision_free_stepsize.__doc__
     for name in onset_ccd.__all__:
         assert getattr(onset_ccd, name).__doc__, name
     for member in ("step", "toi", "rounding", "limiting"):
         assert getattr(onset_ccd.StepResult, member).__doc__, member
+    for outcome in onset_ccd.Outcome:
+        assert outcome.__doc__, outcome
     assert "a pair may be reported once" in onset_ccd.Options.__doc__

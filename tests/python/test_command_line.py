@@ -140,8 +140,10 @@ def test_stdout_has_one_thing(frames):
 
 def test_an_interrupt_leaves_no_files(frames):
     words = ["trade", "a.obj", "b.obj", "--repeats", "1000", "--seconds", "1000", "--json", "t.json"]
-    running = subprocess.Popen([sys.executable, "-m", "onset_ccd", *words], cwd=frames, stderr=subprocess.PIPE, text=True)
-    time.sleep(3)
+    program = "import onset_ccd.command_line.commands, onset_ccd.__main__ as m, sys; print('begins', flush=True); sys.exit(m.main())"
+    running = subprocess.Popen([sys.executable, "-c", program, *words], cwd=frames, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert running.stdout.readline() == "begins\n"
+    time.sleep(1)
     running.send_signal(signal.SIGINT)
     assert running.communicate(timeout=60)[1] == "onset_ccd: interrupted; nothing is written\n"
     assert running.returncode == 130

@@ -226,6 +226,18 @@ def test_ply_is_read_whole(tmp_path):
                 assert fails("check", "cut.ply", cwd=tmp_path).startswith("cut.ply")
 
 
+@pytest.mark.parametrize("line, says", [
+    ("f 1 2 99999999999999999999", "a.obj:4: face 0 has '99999999999999999999' where a vertex index is expected"),
+    ("f 1 2 " + 5000 * "9", "a.obj:4: face 0 has '999"),
+    ("f 1 2 1_0", "a.obj:4: face 0 has '1_0' where a vertex index is expected"),
+    ("f 1 2 \u0663", "a.obj:4: face 0 has '\u0663' where a vertex index is expected"),
+    ("v 1_0 0 0", "a.obj:4: vertex 3 is not three finite numbers: '1_0 0 0'"),
+], ids=["large", "long", "underscore", "digits", "number"])
+def test_what_python_takes_for_numbers(tmp_path, line, says):
+    (tmp_path / "a.obj").write_text(f"v 0 0 0\nv 1 0 0\nv 0 1 0\n{line}\nf 1 2 3\n", encoding="utf-8")
+    assert fails("check", "a.obj", cwd=tmp_path).startswith(says)
+
+
 PLY_FAULTS = [
     ("format ascii 1.0", "format ascii 2.0", "x.ply:2: unknown 'format ascii 2.0'"),
     ("element face 1", "element face -1", "x.ply:7: element face has count '-1'"),

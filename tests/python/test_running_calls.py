@@ -73,6 +73,8 @@ def test_progress_is_told_and_cancels(slow):
     shares = []
     r = onset_ccd.construct_active_set(mesh, x_t0, x_t1, progress=lambda share: shares.append(share) or len(shares) < 5)
     assert r.outcome == onset_ccd.Outcome.cancelled and shares[0] == 0 and len(shares) == 5 and max(shares) <= 1
+    r = onset_ccd.construct_active_set(mesh, x_t0, x_t1, progress=lambda share: np.float64(share) < 1e-9)
+    assert r.outcome == onset_ccd.Outcome.cancelled
     shares.clear()
     r = onset_ccd.compute_collision_free_stepsize(mesh, x_t0, x_t1, progress=shares.append, time_limit=1)
     assert r.outcome != onset_ccd.Outcome.cancelled and len(shares) > 1

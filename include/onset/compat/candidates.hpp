@@ -192,7 +192,7 @@ class Candidates {
     // Subtracted without an error, or rounded down; twice that is exact.
     const double most = in_environment([&] {
       const double d = inflation_radius - min_distance;
-      return d + min_distance > inflation_radius ? std::nextafter(d, 0.0) : d;
+      return inflation_radius - d < min_distance ? std::nextafter(d, 0.0) : d;  // that difference is exact
     });
     if (!(most > 0) || r.size() == 0) return r;
     Options options;
@@ -260,10 +260,30 @@ class Candidates {
   // Neither NaN nor beyond what Onset takes.
   static bool usable(const Eigen::MatrixXd& x) { return (x.array().abs() <= std::ldexp(1.0, 1020)).all(); }
 
+  // Throws std::invalid_argument for a candidate of vertices, edges or faces that the mesh does not have.
+  void require_ids(const CollisionMesh& mesh) const {
+    const auto require = [](const char* what, auto id, std::size_t count) {
+      if (id < 0 || std::size_t(id) >= count)
+        throw std::invalid_argument(std::string(what) + " " + std::to_string(id) +
+                                    " of a candidate is out of range, there are " + std::to_string(count));
+    };
+    const std::size_t vertices = mesh.num_vertices(), edges = mesh.num_edges(), faces = mesh.num_faces();
+    for (const auto& p : vv_candidates)
+      require("vertex", p.vertex0_id, vertices), require("vertex", p.vertex1_id, vertices);
+    for (const auto& p : ev_candidates)
+      require("edge", p.edge_id, edges), require("vertex", p.vertex_id, vertices);
+    for (const auto& p : ee_candidates)
+      require("edge", p.edge0_id, edges), require("edge", p.edge1_id, edges);
+    for (const auto& p : fv_candidates)
+      require("face", p.face_id, faces), require("vertex", p.vertex_id, vertices);
+    for (const auto& p : pv_candidates) require("vertex", p.vertex_id, vertices);
+  }
+
   // The smallest toi of a narrow phase that is not Onset's, asked for each pair; whether there is one.
   bool first_impact(const NarrowPhaseCCD& ccd, const CollisionMesh& mesh, const Eigen::MatrixXd& x0,
                     const Eigen::MatrixXd& x1, double min_distance, double* earliest) const {
     mesh.require_surface(x0), mesh.require_surface(x1);
+    require_ids(mesh);
     bool any = false;
     for (std::size_t i = 0; i < size(); ++i) {
       const CollisionStencil& pair = (*this)[i];
@@ -273,7 +293,7 @@ class Candidates {
         continue;
       any = true;
       if (earliest == nullptr) break;
-      *earliest = std::min(*earliest, std::max(toi, 0.0));
+      *earliest = std::min(*earliest, toi > 0 ? toi : 0);  // NaN is an impact, too
     }
     return any;
   }
@@ -304,6 +324,7 @@ class Candidates {
   }
 
   onset::Candidates list(const CollisionMesh& mesh) const {
+    require_ids(mesh);
     const Eigen::VectorXi& codim = mesh.codim_vertices();
     const int* const end = codim.data() + codim.size();
     const auto edge_of = [&](int vertex) {

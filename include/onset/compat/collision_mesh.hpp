@@ -123,8 +123,11 @@ class CollisionMesh {
   const AdjacencyList& vertex_face_adjacencies() const { return maps_.vertex_faces; }
   // The vertices opposite of an edge in its faces.
   const AdjacencyList& edge_vertex_adjacencies() const { return maps_.edge_vertices; }
-  // Of an edge at rest, and of the longest.
-  double edge_length(index_t e) const { return (rest_.row(edges_(e, 1)) - rest_.row(edges_(e, 0))).norm(); }
+  // Of an edge at rest, and of the longest. Throws std::out_of_range.
+  double edge_length(index_t e) const {
+    if (e < 0 || e >= edges_.rows()) throw std::out_of_range("CollisionMesh: there is no such edge");
+    return (rest_.row(edges_(e, 1)) - rest_.row(edges_(e, 0))).norm();
+  }
   double max_edge_length() const {
     double longest = 0;
     for (index_t e = 0; e < edges_.rows(); ++e) longest = std::max(longest, edge_length(e));

@@ -78,11 +78,22 @@ inline QueryResult ask(const PairMotion& motion, const Options& options) {
   return vertex_edge_ccd(q, options);
 }
 
+// The largest separation there is, and the factor that brings any two positions within it; to multiply by it
+// is exact but for numbers that no distance of this size depends on.
+inline constexpr double kMostSeparation = 0x1p1020, kNear = 0x1p-3;
+
+inline PairMotion scaled(PairMotion motion, double factor) {
+  for (auto* points : {&motion.t0, &motion.t1})
+    for (Point& p : *points)
+      for (double& x : p) x *= factor;
+  return motion;
+}
+
 // Measures a pair where it stands: `gap` is its distance and `weights` its closest points, as Contact says of
-// toi 0. `outcome` is non_finite or out_of_range where there are none.
+// toi 0. `outcome` is non_finite or out_of_range where there are none, and free where the pair is farther
+// apart than kMostSeparation.
 inline QueryResult at_rest(const PairMotion& motion, Options options = {}) {
-  // Every pair is within the largest separation there is.
-  options.min_separation = std::ldexp(1.0, 1020);
+  options.min_separation = kMostSeparation;
   return ask({motion.kind, motion.t0, motion.t0, motion.vertex}, options);
 }
 
@@ -93,12 +104,47 @@ struct Nearest {
   std::array<double, 4> weights{};
 };
 inline Nearest nearest(const PairMotion& pair) {
-  const QueryResult r = at_rest(pair);
+  QueryResult r = at_rest(pair);
   Nearest n;
   if (r.outcome == PairOutcome::non_finite || r.outcome == PairOutcome::out_of_range) return n;
-  n.distance = r.gap;
+  const bool far = r.outcome == PairOutcome::free;
+  if (far) r = at_rest(scaled(pair, kNear));
+  n.distance = far ? r.gap / kNear : r.gap;
   for (std::size_t i = 0; i < 4; ++i) n.weights[pair.vertex[i]] += r.weights[i];
   return n;
+}
+
+// Throws std::invalid_argument for what no query takes.
+inline void require_limits(double min_distance, double tmax, double conservative_rescaling) {
+  if (!(min_distance >= 0 && min_distance <= kMostSeparation))
+    throw std::invalid_argument("min_distance is " + std::to_string(min_distance) + ", not in [0, 2^1020]");
+  if (!(tmax >= 0 && tmax <= 1))
+    throw std::invalid_argument("tmax is " + std::to_string(tmax) + ", not in [0, 1]");
+  if (!(conservative_rescaling > 0 && conservative_rescaling <= 1))
+    throw std::invalid_argument("conservative_rescaling is " + std::to_string(conservative_rescaling) +
+                                ", not in (0, 1]");
+}
+
+// The time of time_of_impact, up to 1, in the library's floating-point environment.
+inline double first_time(const PairMotion& motion, double min_distance, double conservative_rescaling,
+                         Options options) {
+  options.min_separation = min_distance;
+  const QueryResult start = at_rest(motion, options);
+  const double gap = start.gap - min_distance;
+  // What is rounded here moves the wider separation, and that stays min_distance at least: no contact with
+  // min_distance comes before the one with the wider separation.
+  options.min_separation = min_distance + (1 - conservative_rescaling) * std::max(gap, 0.0);
+  if (start.outcome == PairOutcome::free || options.min_separation > kMostSeparation) {
+    if (options.tolerance) *options.tolerance = std::max(*options.tolerance * kNear, 0x1p-1022);
+    return first_time(scaled(motion, kNear), min_distance * kNear, conservative_rescaling, options);
+  }
+  const QueryResult kept = ask(motion, options);
+  if (kept.toi > 0 || kept.outcome != PairOutcome::initial_separating) return kept.toi;
+  // It starts within rounding of the wider separation, or within min_distance, and parts.
+  options.min_separation = min_distance;
+  const QueryResult plain = ask(motion, options);
+  return std::min(kept.step_limit,
+                  plain.outcome == PairOutcome::initial_separating ? plain.step_limit : plain.toi);
 }
 
 // Computes how far a pair may go: never later than the first time at which it comes as close as min_distance,
@@ -107,31 +153,15 @@ inline Nearest nearest(const PairMotion& pair) {
 // to keep a share of. A pair that is within min_distance already, apart, and parts, may go on to its next
 // contact.
 //
-// options: tolerance, max_checks and exactness are used. Throws std::invalid_argument for values out of
-// range, and for tmax outside of [0, 1]. What is later than tmax is infinite.
+// min_distance: model length, in [0, 2^1020]. options: tolerance, max_checks and exactness are used. Throws
+// std::invalid_argument for values out of range, and for tmax outside of [0, 1]. What is later than tmax is
+// infinite.
 inline double time_of_impact(const PairMotion& motion, double min_distance, double tmax,
-                             double conservative_rescaling, Options options) {
-  if (!(tmax >= 0 && tmax <= 1))
-    throw std::invalid_argument("tmax is " + std::to_string(tmax) + ", not in [0, 1]");
-  if (!(conservative_rescaling > 0 && conservative_rescaling <= 1))
-    throw std::invalid_argument("conservative_rescaling is " + std::to_string(conservative_rescaling) +
-                                ", not in (0, 1]");
+                             double conservative_rescaling, const Options& options) {
+  require_limits(min_distance, tmax, conservative_rescaling);
   double toi = 0;
-  in_default_float_environment([&] {
-    options.min_separation = min_distance;
-    const double gap = at_rest(motion, options).gap - min_distance;
-    // What is rounded here moves the wider separation, and that stays min_distance at least: no contact with
-    // min_distance comes before the one with the wider separation.
-    options.min_separation = min_distance + (1 - conservative_rescaling) * std::max(gap, 0.0);
-    const QueryResult kept = ask(motion, options);
-    toi = kept.toi;
-    if (kept.toi > 0 || kept.outcome != PairOutcome::initial_separating) return;
-    // It starts within rounding of the wider separation, or within min_distance, and parts.
-    options.min_separation = min_distance;
-    const QueryResult plain = ask(motion, options);
-    toi = std::min(kept.step_limit,
-                   plain.outcome == PairOutcome::initial_separating ? plain.step_limit : plain.toi);
-  });
+  in_default_float_environment(
+      [&] { toi = first_time(motion, min_distance, conservative_rescaling, options); });
   return toi <= tmax ? toi : std::numeric_limits<double>::infinity();
 }
 

@@ -36,8 +36,7 @@ Mesh mesh_of_plane(const Eigen::Hyperplane<double, 3>& plane, const P& p) {
 template <class P>
 bool plane_impact(double& toi, const Eigen::Hyperplane<double, 3>& plane, const P& p_t0, const P& p_t1,
                   double min_distance, double tmax, double conservative_rescaling) {
-  if (!(tmax >= 0 && tmax <= 1))
-    throw std::invalid_argument("tmax is " + std::to_string(tmax) + ", not in [0, 1]");
+  require_limits(min_distance, tmax, conservative_rescaling);
   Options options;
   options.min_separation = min_distance;
   Candidates pair;
@@ -54,10 +53,19 @@ bool plane_impact(double& toi, const Eigen::Hyperplane<double, 3>& plane, const 
 template <class P>
 Nearest nearest_to_plane(const Eigen::Hyperplane<double, 3>& plane, const P& p) {
   Nearest n;
-  const ClosePairs close = close_pairs(mesh_of_plane(plane, p), p.transpose().eval(), std::ldexp(1.0, 1020));
-  if (close.outcome != Outcome::free || close.pairs.empty()) return n;
-  n.distance = close.pairs[0].distance;
-  n.weights = close.pairs[0].weights;
+  const auto close = [&](const Eigen::Hyperplane<double, 3>& to, const P& from) {
+    return close_pairs(mesh_of_plane(to, from), from.transpose().eval(), kMostSeparation);
+  };
+  const ClosePairs near = close(plane, p);
+  if (near.outcome != Outcome::free) return n;
+  n.weights = {1, 0, 0, 0};
+  n.distance = std::numeric_limits<double>::infinity();  // beyond all numbers, of a plane with a short normal
+  if (!near.pairs.empty()) {
+    n.distance = near.pairs[0].distance;
+    return n;
+  }
+  const ClosePairs far = close({plane.normal(), plane.offset() * kNear}, P(p * kNear));
+  if (!far.pairs.empty()) n.distance = far.pairs[0].distance / kNear;
   return n;
 }
 

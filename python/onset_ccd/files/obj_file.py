@@ -6,6 +6,7 @@ import numpy as np
 
 from .errors import InputError
 from .mesh_file import MeshFile, finish
+from .numbers import plain_float
 
 # What says how a mesh looks, or belongs to what is refused anyhow.
 LOOKS = set("vt vn g s o mg usemtl mtllib usemap maplib bevel c_interp vp lod step deg bmat d_interp cstype shadow_obj trace_obj "
@@ -41,7 +42,7 @@ class ObjReader:
     def vertex(self, number, words):
         place = f"vertex {len(self.vertices)}"
         try:
-            values = [float(word) for word in words]
+            values = [plain_float(word) for word in words]
         except ValueError:
             self.fail(number, f"{place} is not three finite numbers: '{' '.join(words)}'")
         columns = 2 if len(values) == 2 else 3
@@ -53,7 +54,7 @@ class ObjReader:
     def ids(self, number, what, words):
         place = f"{what} {self.counts[what]}"
         for word in words:
-            if not re.fullmatch(r"[+-]?\d+(/[+-]?\d*){0,2}", word):
+            if not re.fullmatch(r"[+-]?[0-9]{1,18}(/[+-]?[0-9]*){0,2}", word):
                 self.fail(number, f"{place} has '{word}' where a vertex index is expected")
         values = [int(word.split("/")[0]) for word in words]
         for value in values:

@@ -9,6 +9,7 @@ import numpy as np
 
 from .errors import InputError
 from .mesh_file import MeshFile, finish
+from .numbers import plain_float, plain_int
 
 TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4", "double": "f8", "int8": "i1",
          "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4", "float32": "f4", "float64": "f8"}
@@ -146,7 +147,7 @@ class TextBody:
 
     @staticmethod
     def value(p, word):
-        return float(word) if p.type[0] == "f" else int(word)
+        return plain_float(word) if p.type[0] == "f" else plain_int(word)
 
     def end(self):
         for line in self.lines:

@@ -108,12 +108,12 @@ DoublesArgument::DoublesArgument(const char* name, nb::handle x) : array_(viewed
 }
 
 onset::Positions DoublesArgument::positions() const {
-  using Stride = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
-  if (axes() == 1)
-    return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>(array_.data(), rows(),
-                                                                      Eigen::InnerStride<>(array_.stride(0)));
-  return Eigen::Map<const Eigen::MatrixXd, 0, Stride>(array_.data(), rows(), cols(),
-                                                      Stride(array_.stride(1), array_.stride(0)));
+  const std::ptrdiff_t count = rows() * cols(), row_stride = array_.stride(0);
+  const std::ptrdiff_t col_stride = axes() == 2 ? array_.stride(1) : 1;
+  const bool one_line = rows() == 1 || cols() == 1, flat = one_line && count % 3 == 0 && !(rows() == 1 && cols() == 3);
+  if (!flat) return {array_.data(), rows(), cols(), row_stride, col_stride};
+  const std::ptrdiff_t stride = cols() == 1 ? row_stride : col_stride;
+  return {array_.data(), count / 3, 3, 3 * stride, stride};
 }
 
 std::vector<double> DoublesArgument::list() const {

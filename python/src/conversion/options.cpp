@@ -89,7 +89,11 @@ std::function<bool(double)> progress_of(nb::handle callback) {
   return [signals, call = held(callback)](double share) {
     signals->look();
     const nb::gil_scoped_acquire lock;
-    return !(*call)(share).is(Py_False);
+    const nb::object answer = (*call)(share);
+    if (answer.is_none()) return true;
+    const int goes_on = PyObject_IsTrue(answer.ptr());
+    if (goes_on < 0) throw nb::python_error();
+    return goes_on != 0;
   };
 }
 
