@@ -92,10 +92,10 @@ void set_rest(CollisionRules& rules, nb::handle x) {
       doc("CollisionRules." #member))
 
 const char* what_rules_are() {
-  static const std::string text =
-      std::string(doc("CollisionRules")) +
-      "\n\nMembers are assigned as a whole, from anything that is like an array; what they give is read-only. Mesh.rules gives a "
-      "copy: assign it again after a change.";
+  static const std::string text = std::string(doc("CollisionRules")) +
+                                  "\n\nMembers are assigned as a whole, from anything that is like an array; "
+                                  "what they give is read-only. Mesh.rules gives a "
+                                  "copy: assign it again after a change.";
   return text.c_str();
 }
 
@@ -178,7 +178,8 @@ void bind_collision_rules(nb::module_& m) {
 
 onset::CollisionRules rules_of(nb::handle rules) {
   onset::CollisionRules read;
-  if (!rules.is_none() && !nb::try_cast(rules, read)) throw nb::type_error("rules must be CollisionRules, or None");
+  if (!rules.is_none() && !nb::try_cast(rules, read))
+    throw nb::type_error("rules must be CollisionRules, or None");
   return read;
 }
 

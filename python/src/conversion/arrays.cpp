@@ -110,7 +110,8 @@ DoublesArgument::DoublesArgument(const char* name, nb::handle x) : array_(viewed
 onset::Positions DoublesArgument::positions() const {
   const std::ptrdiff_t count = rows() * cols(), row_stride = array_.stride(0);
   const std::ptrdiff_t col_stride = axes() == 2 ? array_.stride(1) : 1;
-  const bool one_line = rows() == 1 || cols() == 1, flat = one_line && count % 3 == 0 && !(rows() == 1 && cols() == 3);
+  const bool one_line = rows() == 1 || cols() == 1,
+             flat = one_line && count % 3 == 0 && !(rows() == 1 && cols() == 3);
   if (!flat) return {array_.data(), rows(), cols(), row_stride, col_stride};
   const std::ptrdiff_t stride = cols() == 1 ? row_stride : col_stride;
   return {array_.data(), count / 3, 3, 3 * stride, stride};

@@ -16,7 +16,8 @@ namespace nb = nanobind;
 // another type.
 //
 // A signal, such as KeyboardInterrupt, ends the call of the main thread: its handler runs where the call
-// looks at progress. `progress` is called with the interpreter's lock; what is false, but for None, cancels the call.
+// looks at progress. `progress` is called with the interpreter's lock; what is false, but for None, cancels
+// the call.
 onset::Options options_of(const nb::kwargs& named);
 // Of a query of one pair, which looks at neither signals nor progress.
 onset::Options query_options_of(const nb::kwargs& named);
