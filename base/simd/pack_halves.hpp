@@ -1,6 +1,10 @@
 // The packs of base/simd/pack.hpp as two halves of 16 bytes each, in the vector types of GCC and Clang.
 #pragma once
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include "base/simd/lane_table.hpp"
 
 namespace onset {
@@ -85,7 +89,7 @@ inline Pack<T, H, B> select(const Mask<B>& m, const Pack<T, H, B>& a, const Pack
 
 inline D4 sqrt(const D4& a) {
 #ifdef __SSE2__
-  return {__builtin_ia32_sqrtpd(a.lo), __builtin_ia32_sqrtpd(a.hi)};
+  return {_mm_sqrt_pd(a.lo), _mm_sqrt_pd(a.hi)};
 #else
   return {Double2{__builtin_sqrt(a.lo[0]), __builtin_sqrt(a.lo[1])},
           Double2{__builtin_sqrt(a.hi[0]), __builtin_sqrt(a.hi[1])}};
@@ -93,7 +97,7 @@ inline D4 sqrt(const D4& a) {
 }
 inline Float4 root(Float4 a) {
 #ifdef __SSE2__
-  return __builtin_ia32_sqrtps(a);
+  return _mm_sqrt_ps(a);
 #else
   return Float4{__builtin_sqrtf(a[0]), __builtin_sqrtf(a[1]), __builtin_sqrtf(a[2]), __builtin_sqrtf(a[3])};
 #endif
@@ -106,7 +110,7 @@ inline F8 abs(const F8& a) { return {(Float4)((Int4)a.lo & 0x7fffffff), (Float4)
 
 inline int sign_bits(Int4 x) {
 #ifdef __SSE2__
-  return __builtin_ia32_movmskps((Float4)x);
+  return _mm_movemask_ps((Float4)x);
 #else
   const Int4 bits = (x < 0) & Int4{1, 2, 4, 8};
   return (bits[0] | bits[1]) | (bits[2] | bits[3]);
@@ -114,7 +118,7 @@ inline int sign_bits(Int4 x) {
 }
 inline int sign_bits(Long2 x) {
 #ifdef __SSE2__
-  return __builtin_ia32_movmskpd((Double2)x);
+  return _mm_movemask_pd((Double2)x);
 #else
   return int(x[0] < 0) | int(x[1] < 0) << 1;
 #endif
