@@ -9,6 +9,11 @@ set_target_properties(onset PROPERTIES
   SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # 0.x: every minor version may break the ABI
 target_compile_features(onset PUBLIC cxx_std_17)
 target_compile_definitions(onset PRIVATE $<$<OR:$<CONFIG:Debug>,$<BOOL:${ONSET_ASSERTS}>>:ONSET_ASSERTS>)
+# What include/onset/export.hpp asks: whether the library is shared, and who is compiled, it or a user.
+get_target_property(onset_type onset TYPE)
+if(onset_type STREQUAL "SHARED_LIBRARY")
+  target_compile_definitions(onset PRIVATE ONSET_BUILDING INTERFACE ONSET_SHARED)
+endif()
 target_include_directories(onset PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                  PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(onset PUBLIC Eigen3::Eigen PRIVATE ${onset_threads} $<BUILD_INTERFACE:Boost::boost>)
