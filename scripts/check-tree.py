@@ -15,7 +15,7 @@ import pathlib
 import re
 import sys
 
-TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", "python", "tests", "cmake", "scripts", "docs"]
+TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", "python", "tests", "cmake", "packaging", "scripts", "docs"]
 CPP = {".cpp", ".hpp", ".inl"}
 SOURCES = CPP | {".py", ".sh", ".cmake", ".txt", ".in"}
 LIBRARY = ("include/", "base/", "scene/", "broadphase/", "narrowphase/", "src/")

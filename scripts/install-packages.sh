@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python, site
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python, site, packages
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
@@ -12,6 +12,7 @@ tidy="clang clang-tidy"
 profile="linux-perf valgrind"
 python="python3 python3-dev python3-venv ca-certificates libegl1 libgl1-mesa-dri"
 site="doxygen python3 python3-venv ca-certificates"
+packages="debootstrap dpkg-dev file help2man lintian"
 
 wanted=
 for group; do
@@ -25,6 +26,7 @@ for group; do
     profile) wanted="$wanted $profile" ;;
     python) wanted="$wanted $python" ;;
     site) wanted="$wanted $site" ;;
+    packages) wanted="$wanted $packages" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
 done
