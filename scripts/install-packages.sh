@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python, site, packages
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python, site, packages, arm
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
@@ -13,6 +13,7 @@ profile="linux-perf valgrind"
 python="python3 python3-dev python3-venv ca-certificates libegl1 libgl1-mesa-dri"
 site="doxygen python3 python3-venv ca-certificates"
 packages="debootstrap dpkg-dev file help2man lintian"
+arm="g++-aarch64-linux-gnu qemu-user"
 
 wanted=
 for group; do
@@ -27,6 +28,7 @@ for group; do
     python) wanted="$wanted $python" ;;
     site) wanted="$wanted $site" ;;
     packages) wanted="$wanted $packages" ;;
+    arm) wanted="$wanted $arm" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
 done
