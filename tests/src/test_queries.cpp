@@ -66,7 +66,7 @@ TEST_CASE("a query has the contact of the active set of that pair, bit for bit",
         }
     }
   CHECK((counts.contacts > fuzz(200) && counts.free > fuzz(200) && counts.certain > fuzz(200)));
-  CHECK(counts.parting > fuzz(200) / 20);
+  CHECK(counts.parting > int(kernels().size()) * fuzz(200) / 40);
 }
 
 TEST_CASE("degenerate queries, too, have the contact of the active set", "[property]") {
