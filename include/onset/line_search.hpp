@@ -29,9 +29,9 @@ struct LineSearchOptions : Options {
 
 // `step` is the largest safe one.
 struct LineSearchStep : StepResult {
-  // The share of its gap that every pair is sure to keep, once positions are rounded to stored doubles: the
-  // one asked for unless gap_share_reduced. A gap of less than 2 rounding / (1 - gap_share) may not keep it
-  // all: the share is cut, and `closest` names the pair.
+  // The share of its gap that every pair is sure to keep, or all but what LineSearchOptions::gap_share says,
+  // once positions are rounded to stored doubles: the one asked for unless gap_share_reduced. A gap of less
+  // than 2 rounding / (1 - gap_share) may not keep it all: the share is cut, and `closest` names the pair.
   double gap_share = 0;
   bool gap_share_reduced = false;
   // About this step: false where a gap has no room for rounding at all, so that the step is 0

@@ -106,8 +106,9 @@ struct Contact : Pair {
   // separation 0: toi and toi_hi of the earliest contact are adjacent doubles or one double; which others are
   // depends on the window and the budgets.
   double toi_hi = INFINITY;
-  // How far the pair lets a step go: toi; of initial_separating the next contact, infinite where there is
-  // none.
+  // How far the pair lets a step go: toi; of initial_separating the next time at which it comes as close as
+  // it was at the start, or touches, infinite where there is none: a pair that starts within its separation
+  // may part and come back within it, no closer than it was (docs/steps.md).
   double step_limit = INFINITY;
   // Distance beyond the separation at which the pair was reported; 0, or nearly, where the time is exact.
   double tolerance = 0;

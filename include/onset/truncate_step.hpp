@@ -17,8 +17,8 @@ struct TruncateOptions : Options {
   // NOLINTNEXTLINE: implicit by design, for who needs no more.
   TruncateOptions(const Options& options) : Options(options) {}
 
-  // In [0, 1): every pair keeps at least this share of its gap along the normal of its plane, so that the
-  // next step has room too.
+  // In [0, 1): every pair that the motion can bring together (whose swept boxes meet) keeps at least this
+  // share of its gap along the normal of its plane, so that the next step has room too.
   double gap_share = 0.1;
   // Model length, in (0, 2^1020]. Set: no vertex goes farther than half of it (but for the rounding of one
   // double), so that only pairs that are no farther apart than d_hat beyond their separation are looked at: a

@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "conversion/arrays.hpp"
+#include "conversion/callbacks.hpp"
 #include "conversion/fields.hpp"
 #include "conversion/options.hpp"
 #include "conversion/signatures.hpp"
@@ -58,7 +59,8 @@ void bind_list(nb::module_& m) {
 Candidates visit(const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, nb::callable visitor,
                  const nb::kwargs& named) {
   const auto hand_over = [&](onset::PairKind kind, const std::array<int, 2>* pairs, std::size_t count) {
-    const nb::gil_scoped_acquire lock;
+    const Callback callback;
+    callback.require();
     visitor(kind, taken_array(std::vector<std::array<int, 2>>(pairs, pairs + count)));
   };
   return find(mesh, x_t0, x_t1, named,

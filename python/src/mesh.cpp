@@ -18,7 +18,7 @@ Mesh made_mesh(nb::handle rest, nb::handle faces, nb::handle edges, nb::handle r
   const onset::Indices F = indices("faces", faces, 3);
   const onset::CollisionRules r = rules_of(rules);
   std::ptrdiff_t vertices = 0;
-  if (nb::isinstance<nb::int_>(rest)) {
+  if (is_whole_number(rest)) {
     vertices = whole_number("rest:", rest);
   } else {
     const PositionsArgument x("rest", rest);
@@ -76,7 +76,7 @@ void bind_surface(nb::module_& m) {
       "surface_of_tetrahedra",
       [](nb::handle tetrahedra, nb::handle x) {
         const onset::Indices T = indices("tetrahedra", tetrahedra, 4);
-        if (nb::isinstance<nb::int_>(x)) return onset::surface_of_tetrahedra(T, whole_number("x:", x));
+        if (is_whole_number(x)) return onset::surface_of_tetrahedra(T, whole_number("x:", x));
         const PositionsArgument positions("x", x);
         return without_lock([&] { return onset::surface_of_tetrahedra(T, positions); });
       },

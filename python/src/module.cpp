@@ -1,6 +1,7 @@
 // The module onset_ccd._onset.
 #include "bindings.hpp"
 #include "conversion/arrays.hpp"
+#include "conversion/callbacks.hpp"
 #include "conversion/options.hpp"
 
 NB_MODULE(_onset, m) {
@@ -8,6 +9,7 @@ NB_MODULE(_onset, m) {
   nb::set_leak_warnings(false);  // what the interpreter still holds when it ends is no fault of the program
   m.doc() = "Conservative continuous collision detection: the calls of include/onset, on numpy arrays.";
   m.attr("__version__") = ONSET_VERSION;
+  end_callbacks_at_exit();
   bind_enums(m);
   bind_results(m);
   bind_rules(m);

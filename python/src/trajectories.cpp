@@ -8,6 +8,7 @@
 
 #include "bindings.hpp"
 #include "conversion/arrays.hpp"
+#include "conversion/callbacks.hpp"
 #include "conversion/options.hpp"
 #include "conversion/signatures.hpp"
 
@@ -23,22 +24,26 @@ class PythonTrajectory : public Trajectory {
   NB_TRAMPOLINE(Trajectory);
 
   std::ptrdiff_t num_vertices() const override {
-    const nb::gil_scoped_acquire lock;
-    return nb::cast<std::ptrdiff_t>(method("num_vertices")());
+    const Callback callback;
+    callback.require();
+    return number<std::ptrdiff_t>("num_vertices()", method("num_vertices")());
   }
   int body(std::ptrdiff_t vertex) const override {
-    const nb::gil_scoped_acquire lock;
-    return nb::cast<int>(method("body")(vertex));
+    const Callback callback;
+    callback.require();
+    return number<int>("body()", method("body")(vertex));
   }
   void positions(double t, const int* vertices, std::size_t count, double* xyz) const override {
-    const nb::gil_scoped_acquire lock;
+    const Callback callback;
+    callback.require();
     const DoublesArgument x("positions()", method("positions")(t, list_of(vertices, count)));
     require("positions()", x, std::ptrdiff_t(count), 3);
     const std::vector<double> values = x.list();
     std::copy(values.begin(), values.end(), xyz);
   }
   void straying(double t0, double t1, const int* vertices, std::size_t count, double* bounds) const override {
-    const nb::gil_scoped_acquire lock;
+    const Callback callback;
+    callback.require();
     const DoublesArgument r("straying()", method("straying")(t0, t1, list_of(vertices, count)));
     require("straying()", r, std::ptrdiff_t(count), 1);
     const std::vector<double> values = r.list();
@@ -54,6 +59,13 @@ class PythonTrajectory : public Trajectory {
       throw nb::type_error(text.c_str());
     }
     return self.attr(name);
+  }
+  template <class T>
+  static T number(const char* name, const nb::object& value) {
+    T result{};
+    if (!nb::try_cast(value, result))
+      throw nb::type_error((std::string(name) + " did not return a whole number that fits").c_str());
+    return result;
   }
   static nb::object list_of(const int* vertices, std::size_t count) {
     return taken_array(std::vector<int>(vertices, vertices + count));

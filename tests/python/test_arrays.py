@@ -111,6 +111,16 @@ def test_numbers_of_vertices_that_cannot_be(vertices):
         onset_ccd.Mesh(vertices)
 
 
+def test_numbers_of_numpy(falling):
+    assert onset_ccd.Mesh(np.int64(6), falling.faces).num_vertices == 6
+    mesh = onset_ccd.Mesh(6, falling.faces)
+    for yes in (True, np.True_):
+        assert onset_ccd.compute_collision_free_stepsize(mesh, falling.x_t0, falling.x_t1, touching_may_pass_through=yes).step < 0.5
+    with pytest.raises(ValueError, match="whole numbers that float64 does not hold"):
+        onset_ccd.close_pairs(mesh, np.full((6, 3), 2**53 + 1), 1.0)
+    assert len(onset_ccd.close_pairs(mesh, np.arange(18).reshape(6, 3) + 2**52, 100.0)) > 0
+
+
 def test_complex_numbers_are_not_cut_short(falling, recwarn):
     mesh = onset_ccd.Mesh(6, falling.faces)
     with pytest.raises(TypeError, match="min_separation"):

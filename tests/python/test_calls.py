@@ -274,6 +274,13 @@ def test_what_a_trajectory_raises_leaves_the_call(falling):
         def straying(self, t0, t1, vertices):
             return [0.0]
 
+    class Vague(Curved):
+        def body(self, vertex):
+            return None
+
+    with pytest.raises(TypeError, match="body.. did not return a whole number"):
+        onset_ccd.compute_collision_free_stepsize(mesh, Vague(falling.x_t0))
+
     class Empty(onset_ccd.Trajectory):
         pass
 

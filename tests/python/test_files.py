@@ -21,7 +21,7 @@ def write(folder, extension, x, end, cells, **how):
     return paths
 
 
-FORMATS = [("vtk", {}), ("vtu", {}), ("ply", {}), ("ply", {"binary": False}), ("off", {}), ("msh", {}), ("msh", {"file_format": "gmsh22"}),
+FORMATS = [("vtk", {}), ("vtu", {}), ("ply", {}), ("ply", {"binary": False}), ("off", {}), ("msh", {"file_format": "gmsh"}), ("msh", {"file_format": "gmsh22"}),
            ("xdmf", {"data_format": "XML"}), ("inp", {}), ("mesh", {})]
 
 
@@ -236,6 +236,16 @@ def test_ply_is_read_whole(tmp_path):
 def test_what_python_takes_for_numbers(tmp_path, line, says):
     (tmp_path / "a.obj").write_text(f"v 0 0 0\nv 1 0 0\nv 0 1 0\n{line}\nf 1 2 3\n", encoding="utf-8")
     assert fails("check", "a.obj", cwd=tmp_path).startswith(says)
+
+
+@pytest.mark.parametrize("name, text, says", [
+    ("a.off", "OFF", "a.off: OFF and three whole numbers expected at the start"), ("a.off", "", "a.off: "),
+    ("a.off", "OFF\n+3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off: OFF and three whole numbers"),
+    ("a.msh", "(0 \"ansys\")\n(2 3)\n", "a.msh: $MeshFormat expected at the start"), ("a.tec", "TITLE\n", "a.tec: Tecplot is not read"),
+])
+def test_files_that_meshio_would_wait_for(tmp_path, name, text, says):
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    assert fails("check", name, cwd=tmp_path).startswith(says)
 
 
 PLY_FAULTS = [

@@ -105,6 +105,38 @@ def test_a_call_inside_progress(slow, falling):
     assert len(steps) == 4 and len(set(steps)) == 1
 
 
+ENDING = """
+import threading, time
+import numpy as np, onset_ccd
+x = np.random.default_rng(1).uniform(-1, 1, (6000, 3))
+mesh = onset_ccd.Mesh(6000, np.arange(6000).reshape(-1, 3))
+
+class Still(onset_ccd.Trajectory):
+    def num_vertices(self): return 6000
+    def body(self, vertex): return self.kFree
+    def positions(self, t, vertices): return x[vertices]
+    def straying(self, t0, t1, vertices): return np.full(len(vertices), 1e-3)
+
+def work():
+    while True:
+        CALL
+for _ in range(2):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.3)
+print("ends", flush=True)
+"""
+
+
+@pytest.mark.parametrize("call", [
+    "onset_ccd.construct_active_set(mesh, x, -x, time_limit=0.5, progress=lambda share: True)",
+    "onset_ccd.visit_candidates(mesh, x, x, lambda kind, pairs: None)",
+    "onset_ccd.compute_collision_free_stepsize(mesh, Still(), time_limit=0.5)",
+])
+def test_the_interpreter_ends_while_calls_run(call):
+    done = subprocess.run([sys.executable, "-c", ENDING.replace("CALL", call)], capture_output=True, text=True, timeout=60)
+    assert (done.stdout, done.returncode) == ("ends\n", 0), done.stderr
+
+
 INTERRUPTED = """
 import numpy as np, onset_ccd, sys, time
 n = 300

@@ -209,6 +209,7 @@ class CollisionMesh {
 
   // Throws std::invalid_argument where positions are not #V x dim: Eigen does not ask in optimised builds.
   void require_surface(const Eigen::MatrixXd& x) const {
+    if (x.rows() == 0 && rest_.rows() == 0) return;
     if (x.rows() != rest_.rows() || x.cols() != rest_.cols())
       throw std::invalid_argument("got " + shape(x) + " positions; the surface has " +
                                   std::to_string(rest_.rows()) + " vertices");

@@ -29,12 +29,13 @@ namespace onset::ipc_toolkit {
 //
 // Guarantee: toi is never later than the exact time at which the pair comes as close as min_distance, and at
 // toi it keeps 1 - conservative_rescaling of the gap beyond that. False only where the pair certainly stays
-// beyond both up to tmax; toi is then infinite. A pair that touches at the start, or closes from within
-// min_distance or within rounding of it: true, toi 0. One that is within min_distance, apart, and parts, is
-// not held back. NaN, infinities and |x| > 2^1020: true, toi 0. This is of the exact motion: what storing x +
-// toi dx changes is not looked at, as it is by Onset's calls on meshes. Planes do not ask this class
-// (ipc-toolkit decides them). Throws std::invalid_argument for values out of range. Safe to call
-// concurrently.
+// beyond both up to tmax; toi is then infinite. A pair that touches at the start, or closes
+// from within min_distance: true, toi 0. One that is within min_distance, or beyond it by no more than
+// rounding (2^-45 of its size), apart, and parts, is not held back: it goes on as long as it comes no closer
+// than it was, up to rounding (docs/steps.md). NaN, infinities and |x| > 2^1020: true, toi 0. This is of the
+// exact motion: what storing x + toi dx changes is not looked at, as it is by Onset's calls on meshes. Planes
+// do not ask this class (ipc-toolkit decides them). Throws std::invalid_argument for values out of range.
+// Safe to call concurrently.
 class NarrowPhaseCCD : public ::ipc::NarrowPhaseCCD {
   using Vector = ::Eigen::ConstRef<::ipc::VectorMax3d>;
   using Vector3 = ::Eigen::ConstRef<::Eigen::Vector3d>;

@@ -54,12 +54,13 @@ class NarrowPhaseCCD {
 //
 // Guarantee: toi is never later than the exact time at which the pair comes as close as min_distance, and at
 // toi it keeps 1 - conservative_rescaling of the gap beyond that. False only where the pair certainly stays
-// beyond both up to tmax. A pair that touches at the start, or closes from within min_distance or within
-// rounding of it: true, toi 0. One that is within min_distance, apart, and parts, is not held back: its
-// impact is the next one. NaN, infinities and |x| > 2^1020: true, toi 0. This is of the exact motion: what
-// storing x + toi dx changes is not looked at, as it is by the calls on meshes.
-// Throws std::invalid_argument for values out of range, or points of another number of coordinates. Safe to
-// call concurrently.
+// beyond both up to tmax. A pair that touches at the start, or closes from within min_distance: true, toi 0.
+// One that is within min_distance, or beyond it by no more than rounding (2^-45 of its size), apart, and
+// parts, is not held back: it goes on as long as it comes no closer than it was, up to rounding
+// (docs/steps.md). NaN, infinities and |x| > 2^1020: true, toi 0. This is of the exact motion: what storing x
+// + toi dx changes is not looked at, as it is by the calls on meshes. Throws std::invalid_argument for values
+// out of range. Eigen converts the points, and looks at their size in debug builds alone. Safe to call
+// concurrently.
 //
 // A class derived from one of these that answers a query in another way has to return nothing from
 // onset_options, else the calls on meshes do not ask it.

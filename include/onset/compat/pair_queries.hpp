@@ -150,8 +150,8 @@ inline double first_time(const PairMotion& motion, double min_distance, double c
 // Computes how far a pair may go: never later than the first time at which it comes as close as min_distance,
 // by the exact motion. Infinite where it does not in [0, 1], and keeps 1 - conservative_rescaling, in [0, 1),
 // of its gap beyond min_distance as well; 0 for positions that are not usable, and where the gap is too small
-// to keep a share of. A pair that is within min_distance already, apart, and parts, may go on to its next
-// contact.
+// to keep a share of. A pair that is within min_distance already, or beyond it by no more than rounding,
+// apart, and parts, may go on as long as it comes no closer than it was (docs/steps.md).
 //
 // min_distance: model length, in [0, 2^1020]. options: tolerance, max_checks and exactness are used. Throws
 // std::invalid_argument for values out of range, and for tmax outside of [0, 1]. What is later than tmax is

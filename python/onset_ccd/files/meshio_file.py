@@ -33,17 +33,29 @@ def check_extension(meshio, path):
                          f"one of {', '.join(sorted(known))} expected")
 
 
+def check_end(path):
+    """meshio's readers of these formats wait for ever where a file ends too soon."""
+    name = path.lower()
+    if name.endswith((".tec", ".dat", ".plt")):
+        raise InputError(f"{path}: Tecplot is not read: save .vtu or .ply")
+    if name.endswith(".msh"):
+        with open(path, "rb") as file:
+            if not file.read(64).lstrip().startswith(b"$"):
+                raise InputError(f"{path}: $MeshFormat expected at the start, as Gmsh writes it; the .msh of other programs is not read")
+
+
 def check_off(path):
     """meshio would take colours of faces for the next face."""
     if not path.lower().endswith(".off"):
         return
     with open(path, encoding="utf-8", errors="replace") as file:
         words = " ".join(line.split("#", 1)[0] for line in file).split()
-    if words and words[0] == "OFF" and len(words) > 3 and all(word.isdigit() for word in words[1:3]):
-        expected = 4 + 3 * int(words[1]) + 4 * int(words[2])
-        if len(words) != expected:
-            raise InputError(f"{path}: {len(words)} words, {expected} expected of {words[1]} vertices and {words[2]} triangles: write .ply, "
-                             "or triangles without colours")
+    if not words or words[0] != "OFF" or len(words) < 4 or not all(re.fullmatch("[0-9]+", word) for word in words[1:4]):
+        raise InputError(f"{path}: OFF and three whole numbers expected at the start")
+    expected = 4 + 3 * int(words[1]) + 4 * int(words[2])
+    if len(words) != expected:
+        raise InputError(f"{path}: {len(words)} words, {expected} expected of {words[1]} vertices and {words[2]} triangles: write .ply, "
+                         "or triangles without colours")
 
 
 def cause_of(error, said):
@@ -66,6 +78,7 @@ def call_meshio(path):
     meshio = import_meshio(path)
     check_extension(meshio, path)
     check_off(path)
+    check_end(path)
     said = io.StringIO()
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():
@@ -89,6 +102,13 @@ def positions_of(path, mesh):
 
 def read_with_meshio(path):
     mesh, said = call_meshio(path)
+    try:
+        return converted(path, mesh, said)
+    except (IndexError, KeyError, TypeError, ValueError) as error:
+        raise InputError(f"{path}: what meshio made of it is no mesh, the file is damaged ({type(error).__name__}: {one_line(error)[:200]})") from None
+
+
+def converted(path, mesh, said):
     result = MeshFile(path, positions_of(path, mesh))
     if LEFT_OUT.search(said):
         raise InputError(f"{path}: {said} Elements would be missing: write linear cells and polygons")

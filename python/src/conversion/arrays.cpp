@@ -55,6 +55,11 @@ Doubles viewed_or_copied(const char* name, nb::handle x) {
       (!is_of_kind(given, "fiub") ||
        !nb::cast<bool>(numpy().attr("can_cast")(given.attr("dtype"), dtype, "safe"))))
     reject(name, "is an array of " + type_of(given) + ", which float64 does not hold");
+  if (is_of_kind(given, "iu") && nb::cast<int>(given.attr("itemsize")) > 4) {
+    const nb::object back = given.attr("astype")(dtype).attr("astype")(given.attr("dtype"));
+    if (!nb::cast<bool>(numpy().attr("array_equal")(back, given)))
+      reject(name, "has whole numbers that float64 does not hold");
+  }
   const nb::object copy = nb::cast<std::size_t>(given.attr("size")) > 0
                               ? numpy().attr("array")(given, dtype, nb::arg("order") = "C")
                               : numpy().attr("zeros")(given.attr("shape"));
@@ -93,6 +98,17 @@ std::optional<double> real_number(nb::handle value) {
   if (!plain && !(nb::hasattr(value, "dtype") && is_of_kind(nb::borrow(value), "f"))) return std::nullopt;
   double number = 0;
   return nb::try_cast(value, number) ? std::optional<double>(number) : std::nullopt;
+}
+
+std::optional<bool> numpy_flag(nb::handle value) {
+  if (!nb::hasattr(value, "dtype") || !is_of_kind(nb::borrow(value), "b")) return std::nullopt;
+  return PyObject_IsTrue(value.ptr()) == 1;
+}
+
+bool is_whole_number(nb::handle value) {
+  if (nb::isinstance<nb::int_>(value)) return true;
+  return PyIndex_Check(value.ptr()) != 0 && nb::hasattr(value, "ndim") &&
+         nb::cast<int>(value.attr("ndim")) == 0;
 }
 
 std::ptrdiff_t whole_number(const char* name, nb::handle value) {

@@ -58,6 +58,10 @@ std::array<double, 3> vector3(const char* name, nb::handle values);
 
 // A real number, of Python or of numpy; none for anything else, complex numbers among it.
 std::optional<double> real_number(nb::handle value);
+// A bool_ of numpy.
+std::optional<bool> numpy_flag(nb::handle value);
+// An int of Python or numpy, not an array.
+bool is_whole_number(nb::handle value);
 // ValueError where it does not fit into 64 bits.
 std::ptrdiff_t whole_number(const char* name, nb::handle value);
 

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "conversion/arrays.hpp"
+#include "conversion/callbacks.hpp"
 #include "conversion/docs.hpp"
 
 namespace onset_python {
@@ -22,6 +23,8 @@ T value_of(const char* name, nb::handle value) {
     if (const std::optional<double> number = real_number(value)) return *number;
   } else if (nb::try_cast(value, result)) {
     return result;
+  } else if constexpr (std::is_same_v<T, bool>) {
+    if (const std::optional<bool> flag = numpy_flag(value)) return *flag;
   }
   const std::string text =
       std::string("option ") + name + ": " + nb::repr(value).c_str() + " is of another type";
@@ -77,8 +80,8 @@ class Signals {
 // The callback's reference is given up with the lock, wherever the options end.
 std::shared_ptr<nb::object> held(nb::handle callback) {
   return {new nb::object(nb::borrow(callback)), [](nb::object* object) {
-            const nb::gil_scoped_acquire lock;
-            delete object;
+            const Callback lock;
+            if (lock) delete object;
           }};
 }
 
@@ -88,7 +91,8 @@ std::function<bool(double)> progress_of(nb::handle callback) {
   if (!nb::isinstance<nb::callable>(callback)) throw nb::type_error("option progress: it must be callable");
   return [signals, call = held(callback)](double share) {
     signals->look();
-    const nb::gil_scoped_acquire lock;
+    const Callback callback;
+    if (!callback) return false;
     const nb::object answer = (*call)(share);
     if (answer.is_none()) return true;
     const int goes_on = PyObject_IsTrue(answer.ptr());

@@ -1,0 +1,44 @@
+#include "conversion/callbacks.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace onset_python {
+namespace {
+
+namespace nb = nanobind;
+
+std::atomic<bool> ending{false};
+std::atomic<int> running{0};
+
+// With the lock, which those that run may wait for. Longer than a second no callback may hold up the end.
+void end_callbacks() {
+  ending = true;
+  const nb::gil_scoped_release released;
+  for (int i = 0; running > 0 && i < 1000; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+}  // namespace
+
+Callback::Callback() noexcept {
+  ++running;  // before the look: the end waits for whoever has not seen it
+  begun_ = !ending;
+  if (begun_) state_ = PyGILState_Ensure();
+}
+
+Callback::~Callback() {
+  if (begun_) PyGILState_Release(state_);
+  --running;
+}
+
+void Callback::require() const {
+  if (!begun_) throw std::runtime_error("the interpreter ends");
+}
+
+void end_callbacks_at_exit() {
+  nb::module_::import_("atexit").attr("register")(nb::cpp_function(&end_callbacks));
+}
+
+}  // namespace onset_python
