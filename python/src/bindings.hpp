@@ -8,6 +8,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "conversion/callbacks.hpp"
 #include "conversion/docs.hpp"
 
 namespace onset_python {
@@ -32,7 +33,7 @@ void bind_toolkit(nb::module_& m);
 // Runs f without the interpreter's lock.
 template <class F>
 auto without_lock(F&& f) {
-  const nb::gil_scoped_release released;
+  const WithoutLock released;
   return f();
 }
 

@@ -23,7 +23,22 @@ class Callback {
   PyGILState_STATE state_{};
 };
 
+// Whether the interpreter ends, and not by this thread.
+bool ends_elsewhere() noexcept;
 // Registers with atexit.
 void end_callbacks_at_exit();
+
+// Gives the interpreter's lock to others as long as it lives. A thread that would take it back while the
+// interpreter ends waits for the end of the process in its place.
+class WithoutLock {
+ public:
+  WithoutLock() noexcept : state_(PyEval_SaveThread()) {}
+  ~WithoutLock();
+  WithoutLock(const WithoutLock&) = delete;
+  WithoutLock& operator=(const WithoutLock&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
 
 }  // namespace onset_python

@@ -16,6 +16,7 @@ void ask_plane_pairs(const Mesh& mesh, const Subject& subject, const Options& op
 void ask_words(const Mesh& mesh, const Subject& subject, const Options& options, Answer& answer);
 // The surfaces of onset/compat/ipc.hpp, and its calls on them.
 void ask_surfaces(const Mesh& mesh, const Subject& subject, const Options& options, Answer& answer);
+void ask_toolkit(const Mesh& mesh, const Subject& subject, const Options& options, Answer& answer);
 void ask_adapter(const Mesh& mesh, const Subject& subject, const Options& options, Answer& answer);
 
 }  // namespace onset::tests

@@ -349,6 +349,7 @@ const std::vector<Call>& every_call() {
       {"words and counts", false, ask_words},
       {"adapter: surfaces", false, ask_surfaces},
       {"adapter: steps", false, ask_adapter},
+      {"adapter: parts", false, ask_toolkit},
   };
   return calls;
 }
