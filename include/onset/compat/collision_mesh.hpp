@@ -13,6 +13,7 @@
 #include <onset/compat/mesh_maps.hpp>
 #include <onset/compat/mesh_with_planes.hpp>
 #include <onset/mesh.hpp>
+#include <onset/step_size.hpp>
 #include <onset/vertex_map.hpp>
 #include <stdexcept>
 #include <string>
@@ -126,7 +127,10 @@ class CollisionMesh {
   // Of an edge at rest, and of the longest. Throws std::out_of_range.
   double edge_length(index_t e) const {
     if (e < 0 || e >= edges_.rows()) throw std::out_of_range("CollisionMesh: there is no such edge");
-    return (rest_.row(edges_(e, 1)) - rest_.row(edges_(e, 0))).norm();
+    double length = 0;
+    in_default_float_environment(
+        [&] { length = (rest_.row(edges_(e, 1)) - rest_.row(edges_(e, 0))).norm(); });
+    return length;
   }
   double max_edge_length() const {
     double longest = 0;

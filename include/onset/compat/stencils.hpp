@@ -67,8 +67,12 @@ class CollisionStencil {
   // The SQUARED distance, as in ipc-toolkit: the square of one within 2^-45 of the pair's size. NaN where
   // positions are not finite.
   double compute_distance(const VectorMax12d& positions) const {
-    const compat::Nearest nearest = closest(positions);
-    return nearest.distance * nearest.distance;
+    double squared = 0;
+    in_default_float_environment([&] {
+      const compat::Nearest nearest = closest(positions);
+      squared = nearest.distance * nearest.distance;
+    });
+    return squared;
   }
   double compute_distance(const Vertices& x, const Ids& edges, const Ids& faces) const {
     return compute_distance(dof(x, edges, faces));

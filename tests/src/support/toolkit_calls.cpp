@@ -58,8 +58,7 @@ void add_maps(ipc::CollisionMesh mesh, Answer& a) {
                             &mesh.vertex_vertex_adjacencies(), &mesh.vertex_edge_adjacencies(),
                             &mesh.vertex_face_adjacencies(), &mesh.edge_vertex_adjacencies()})
     add_lists(*lists, a);
-  // Lengths are the host's arithmetic, in whatever way it rounds.
-  a.add(mesh.edge_length(0) <= mesh.max_edge_length());
+  a.add(mesh.edge_length(0), mesh.max_edge_length());
   a.add(ipc::CollisionMesh::construct_faces_to_edges(mesh.faces(), mesh.edges()));
   for (const bool on : ipc::CollisionMesh::construct_is_on_surface(mesh.num_vertices(), mesh.edges()))
     a.add(on);
