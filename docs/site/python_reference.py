@@ -82,7 +82,7 @@ def make_package(package, stub, folder):
     headers = sorted((pathlib.Path(__file__).resolve().parents[2] / "include/onset").glob("*.hpp"))
     docs = {name: text for header in headers for name, text in docstrings.members(header) if re.match(r"\w*Options\.", name)}
     docs.update({name.removeprefix("Options."): text for name, text in docs.items() if name.startswith("Options.")})
-    options = f"\n\ndef _option_docs():\n    from collections import defaultdict\n\n    return defaultdict(str, {docs!r})\n"
+    options = f"\n\n__version__ = ''\n\n\ndef _option_docs():\n    from collections import defaultdict\n\n    return defaultdict(str, {docs!r})\n"
     (folder / "onset_ccd/_onset.py").write_text(module_of(stub.read_text()) + options)
 
 

@@ -8,6 +8,7 @@ What these sources include and the package lacks (spdlog, libigl, Tight Inclusio
 
 import concurrent.futures
 import hashlib
+import importlib.metadata
 import importlib.util
 import os
 import pathlib
