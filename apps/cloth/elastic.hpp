@@ -4,9 +4,11 @@
 #include <array>
 #include <vector>
 
-#include "cloth/system.hpp"
+#include "simulation/system.hpp"
 
 namespace cloth {
+
+using namespace simulation;
 
 struct Material {
   double density = 0.2;   // kg / m^2

@@ -3,14 +3,14 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <limits>
 #include <optional>
 
-#include "cloth/intersections.hpp"
 #include "cloth/output.hpp"
 #include "files/interrupts.hpp"
 #include "files/output.hpp"
-#include "files/text_lines.hpp"
+#include "simulation/arguments.hpp"
+#include "simulation/intersections.hpp"
+#include "simulation/output.hpp"
 
 namespace {
 
@@ -22,17 +22,6 @@ struct Arguments {
   cloth::Settings settings;
 };
 
-// What a number must be, in words; CLI11's own checks let NaN pass, and take an empty word for 0.
-CLI::Validator number(double least, bool is_whole, const std::string& words) {
-  return {[=](const std::string& text) {
-            const std::optional<double> value = app::parse_double(text);
-            const bool fits = value && std::isfinite(*value) && *value >= least;
-            if (fits && (!is_whole || app::parse_whole(text))) return std::string();
-            return words + " expected, not '" + text + "'";
-          },
-          ""};
-}
-
 void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--scene", a.scene, "sphere, twist, pile or ground")
       ->check(CLI::IsMember({"sphere", "twist", "pile", "ground"}))
@@ -40,19 +29,18 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--triangles", a.triangles, "Of the cloth, about")
       ->check(CLI::Range(40, 1000000))
       ->capture_default_str();
-  const CLI::Validator count = number(0, true, "a whole number >= 0");
-  app.add_option("--steps", a.steps, "Time steps")->check(count)->capture_default_str();
+  app.add_option("--steps", a.steps, "Time steps")->check(simulation::count())->capture_default_str();
   app.add_option("--seed", a.seed, "Of the ripples and turns at the start")
-      ->check(count)
+      ->check(simulation::count())
       ->capture_default_str();
   app.add_option("--time-step", a.settings.time_step, "Seconds")
-      ->check(number(std::numeric_limits<double>::min(), false, "a finite number > 0"))
+      ->check(simulation::positive())
       ->capture_default_str();
   app.add_option("--friction", a.settings.friction, "Coefficient")
-      ->check(number(0, false, "a finite number >= 0"))
+      ->check(simulation::not_negative())
       ->capture_default_str();
   app.add_option("--threads", a.settings.options.threads, "Of the collision phase; 0: all there are")
-      ->check(count)
+      ->check(simulation::count())
       ->capture_default_str();
   app.add_option("--out", a.out, "A frame a step goes into this folder")->type_name("FOLDER");
   app.add_option("--json", a.json, "A line a step goes into this file")->type_name("FILE");
@@ -68,9 +56,7 @@ class Outputs {
   }
   void frame(int step, const cloth::Vector& x, const cloth::Scene& scene) const {
     if (folder_.empty()) return;
-    char name[32];
-    std::snprintf(name, sizeof name, "frame_%04d.ply", step);
-    cloth::write_frame((std::filesystem::path(folder_) / name).string(), x, scene.faces);
+    simulation::write_ply_frame(simulation::frame_path(folder_, step, "ply"), x, scene.faces);
   }
   void line(int step, const cloth::StepReport& report) {
     if (json_) json_->write(cloth::json_line(step, report) + "\n");
@@ -115,11 +101,11 @@ int run(const Arguments& a) {
   Summary summary;
   const auto look = [&](int step) {
     outputs.frame(step, stepper.x(), scene);
-    if (a.check) summary.intersecting += cloth::intersects_itself(stepper.x(), scene.faces);
+    if (a.check) summary.intersecting += simulation::intersects_itself(stepper.x(), scene.faces);
   };
   look(0);
   {
-    const cloth::Bar bar(a.steps);
+    const simulation::Bar bar(a.steps);
     for (int step = 1; step <= a.steps; ++step) {
       const cloth::StepReport report = stepper.step();
       summary.add(report);

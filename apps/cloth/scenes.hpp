@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "cloth/system.hpp"
+#include "simulation/system.hpp"
 
 namespace cloth {
+
+using namespace simulation;
 
 // Vertices from `first` on that turn about `centre` as one rigid body; rate: a rotation vector, rad/s.
 struct Turning {

@@ -1,9 +1,10 @@
 #include "cloth/stepper.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
+
+#include "simulation/search.hpp"
 
 namespace cloth {
 namespace {
@@ -12,17 +13,6 @@ constexpr double kReach = 0.1;      // d-hat, of an edge
 constexpr double kAccuracy = 0.02;  // of d-hat: the largest change at which Newton's method ends
 constexpr int kMoves = 30;          // iterations that move vertices by hand, or turn a body, at most
 constexpr double kKept = 0.9;       // share of the way to a contact that a body turns
-constexpr double kShortest = 1e-6;  // share of a step at which backtracking gives up
-
-class Timer {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Eigen::MatrixXi matrix(const std::vector<std::array<int, 3>>& faces) {
   Eigen::MatrixXi F(faces.size(), 3);
@@ -92,29 +82,17 @@ Vector Stepper::direction(const Goal& goal, const Vector& moved) const {
 // One iteration of Newton's method; the result tells whether it changed nothing to speak of.
 bool Stepper::iterate(const Goal& goal, const Vector& moved, bool descend, StepReport& report) {
   const Vector dx = direction(goal, moved);
-  Timer collision;
-  onset::LineSearchOptions options = settings_.options;
-  options.d_hat = d_hat_;
-  const onset::LineSearch search(mesh_, x_, dx, options);
-  const onset::StepResult limit = search.largest_step();
-  if (limit.outcome != onset::Outcome::free && limit.outcome != onset::Outcome::contact)
-    throw std::runtime_error(std::string("the line search ended with ") + onset::to_string(limit.outcome));
-  report.smallest_step = std::min(report.smallest_step, limit.step);
-  if (limit.outcome == onset::Outcome::contact) report.toi = std::min(report.toi, limit.step);
-  double step = limit.step;
-  onset::ClosePairs close = search.close_pairs(step);
-  report.seconds_collision += collision.seconds();
-
   const double before = descend ? energy(goal, x_, close_) : INFINITY;
-  while (descend && !(energy(goal, x_ + step * dx, close) <= before)) {
-    step /= 2;
-    if (step < kShortest * limit.step) return true;
-    Timer again;
-    close = search.close_pairs(step);
-    report.seconds_collision += again.seconds();
-  }
-  x_ += step * dx;
-  close_ = std::move(close);
+  Search found =
+      search(mesh_, x_, dx, d_hat_, settings_.options, [&](double step, const onset::ClosePairs& close) {
+        return descend && !(energy(goal, x_ + step * dx, close) <= before);
+      });
+  report.smallest_step = std::min(report.smallest_step, found.limit);
+  if (found.contact) report.toi = std::min(report.toi, found.limit);
+  report.seconds_collision += found.seconds_collision;
+  if (found.step == 0 && found.limit > 0) return true;
+  x_ += found.step * dx;
+  close_ = std::move(found.close);
   ++report.iterations;
   return dx.lpNorm<Eigen::Infinity>() < kAccuracy * d_hat_;
 }

@@ -3,9 +3,9 @@
 
 #include <onset/onset.hpp>
 
-#include "cloth/contact.hpp"
 #include "cloth/elastic.hpp"
 #include "cloth/scenes.hpp"
+#include "simulation/contact.hpp"
 
 namespace cloth {
 

@@ -1,17 +1,17 @@
-// The exact check of the cloth simulator finds what it is there to find.
-#include "cloth/intersections.hpp"
+// The exact check of the simulators finds what it is there to find.
+#include "simulation/intersections.hpp"
 #include "tests/catch.hpp"
 
 namespace {
 
 using Faces = std::vector<std::array<int, 3>>;
 
-cloth::Vector points(std::vector<double> x) {
-  return Eigen::Map<cloth::Vector>(x.data(), Eigen::Index(x.size()));
+simulation::Vector points(std::vector<double> x) {
+  return Eigen::Map<simulation::Vector>(x.data(), Eigen::Index(x.size()));
 }
 
 bool meet(const std::vector<double>& x, const Faces& faces) {
-  return cloth::intersects_itself(points(x), faces);
+  return simulation::intersects_itself(points(x), faces);
 }
 
 }  // namespace

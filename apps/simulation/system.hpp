@@ -5,7 +5,7 @@
 #include <Eigen/Sparse>
 #include <vector>
 
-namespace cloth {
+namespace simulation {
 
 // Positions, velocities and gradients are flat: x y z of vertex 0, x y z of vertex 1, ...
 using Vector = Eigen::VectorXd;
@@ -60,4 +60,4 @@ class System {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-}  // namespace cloth
+}  // namespace simulation

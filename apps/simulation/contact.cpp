@@ -1,8 +1,8 @@
-#include "cloth/contact.hpp"
+#include "simulation/contact.hpp"
 
 #include <cmath>
 
-namespace cloth {
+namespace simulation {
 namespace {
 
 // The vector between the closest points, from the second primitive to the first.
@@ -99,4 +99,4 @@ void Friction::add_derivatives(const Vector& x, System& system) const {
   }
 }
 
-}  // namespace cloth
+}  // namespace simulation

@@ -4,9 +4,9 @@
 
 #include <onset/close_pairs.hpp>
 
-#include "cloth/system.hpp"
+#include "simulation/system.hpp"
 
-namespace cloth {
+namespace simulation {
 
 // kappa b(d^2 / d_hat^2) for each pair, with b(s) = -(s - 1)^2 ln s below 1 and 0 above: twice continuously
 // differentiable, infinite at contact (Li et al. 2020, "Incremental potential contact", eq. 6).
@@ -46,4 +46,4 @@ class Friction {
   std::vector<Contact> contacts_;
 };
 
-}  // namespace cloth
+}  // namespace simulation

@@ -4,11 +4,11 @@
 #include <array>
 #include <vector>
 
-#include "cloth/system.hpp"
+#include "simulation/system.hpp"
 
-namespace cloth {
+namespace simulation {
 
 // Any two faces that meet anywhere but in a shared vertex or edge.
 bool intersects_itself(const Vector& x, const std::vector<std::array<int, 3>>& faces);
 
-}  // namespace cloth
+}  // namespace simulation

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws frames that onset_cloth has written, side by side, as one PNG.
+"""Draws frames that a simulator has written, side by side, as one PNG.
 
   render.py OUT.png FRAME.ply... [--cloth FACES...] [--elevation DEGREES] [--azimuth DEGREES]
 """
@@ -15,12 +15,12 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 
 def read_frame(path):
-    """Vertices and faces of a frame, in the one layout that onset_cloth writes."""
+    """Vertices and faces of a frame, in the one layout that the simulators write."""
     with open(path, "rb") as file:
         counts = {}
         for line in iter(file.readline, b"end_header\n"):
             if not line:
-                raise SystemExit(f"{path}: no PLY of onset_cloth")
+                raise SystemExit(f"{path}: no PLY of a simulator")
             words = line.split()
             if words[0] == b"element":
                 counts[words[1]] = int(words[2])

@@ -1,11 +1,11 @@
-#include "cloth/intersections.hpp"
+#include "simulation/intersections.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 
-namespace cloth {
+namespace simulation {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -55,4 +55,4 @@ bool intersects_itself(const Vector& x, const std::vector<Face>& faces) {
   return found;
 }
 
-}  // namespace cloth
+}  // namespace simulation
