@@ -5,14 +5,6 @@
 namespace simulation {
 namespace {
 
-// The vector between the closest points, from the second primitive to the first.
-Vec3 between(const std::array<int, 4>& vertices, const std::array<double, 4>& weights, const Vector& x) {
-  Vec3 w = Vec3::Zero();
-  for (std::size_t i = 0; i < 4; ++i)
-    if (weights[i] != 0) w += weights[i] * at(x, vertices[i]);
-  return w;
-}
-
 // The direction from the second to the first: of a plane its normal, of others that of `w`.
 Vec3 direction(const onset::ClosePair& p, const std::vector<onset::Plane>& planes, const Vec3& w) {
   if (p.kind != onset::PairKind::vertex_plane) return w.normalized();
@@ -31,13 +23,42 @@ void add_pair(const std::array<int, 4>& vertices, const std::array<double, 4>& w
   }
 }
 
+// Negative curvatures become 0.
+void add_projected(const Barrier::Mollified& m, const std::array<int, 4>& vertices, System& system) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 12, 12>> eigen(m.hessian);
+  const Eigen::Matrix<double, 12, 12> H =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  for (int i = 0; i < 4; ++i) {
+    system.add_gradient(vertices[std::size_t(i)], m.gradient.segment<3>(3 * i));
+    for (int j = 0; j < 4; ++j)
+      system.add_block(vertices[std::size_t(i)], vertices[std::size_t(j)], H.block<3, 3>(3 * i, 3 * j));
+  }
+}
+
 }  // namespace
+
+Vec3 between(const std::array<int, 4>& vertices, const std::array<double, 4>& weights, const Vector& x) {
+  Vec3 w = Vec3::Zero();
+  for (std::size_t i = 0; i < 4; ++i)
+    if (weights[i] != 0) w += weights[i] * at(x, vertices[i]);
+  return w;
+}
 
 double Barrier::energy(const onset::ClosePairs& close) const {
   double sum = 0;
   for (const onset::ClosePair& p : close) {
     const double s = p.distance * p.distance / (d_hat_ * d_hat_);
     if (s < 1) sum -= kappa_ * (s - 1) * (s - 1) * std::log(s);
+  }
+  return sum;
+}
+
+double Barrier::energy(const onset::ClosePairs& close, const Vector& x) const {
+  double sum = 0;
+  for (const onset::ClosePair& p : close) {
+    const double s = p.distance * p.distance / (d_hat_ * d_hat_);
+    if (!(s < 1)) continue;
+    sum += is_mollified(p, x) ? mollified(p, x).energy : -kappa_ * (s - 1) * (s - 1) * std::log(s);
   }
   return sum;
 }
@@ -56,6 +77,10 @@ void Barrier::add_derivatives(const onset::ClosePairs& close, const std::vector<
     const Vec3 w = between(p.vertices, p.weights, x);
     const double d = p.kind == onset::PairKind::vertex_plane ? p.distance : w.norm(), s = d * d / D;
     if (!(s < 1)) continue;
+    if (is_mollified(p, x)) {
+      add_projected(mollified(p, x), p.vertices, system);
+      continue;
+    }
     const Vec3 n = direction(p, planes, w);
     const double slope = -(2 * (s - 1) * std::log(s) + (s - 1) * (s - 1) / s);               // db / ds
     const double bend = -(2 * std::log(s) + 4 * (s - 1) / s - (s - 1) * (s - 1) / (s * s));  // d2b / ds2

@@ -41,16 +41,27 @@ class System {
         if (r + a >= c + b) entries_.emplace_back(r + a, c + b, block(a, b));
   }
 
-  // The direction, for all vertices. The blocks added must make up a positive definite matrix.
-  Vector solve() {
+  // Its lower triangle, where all blocks are added.
+  Eigen::SparseMatrix<double> lower() const {
     Eigen::SparseMatrix<double> H(rhs_.size(), rhs_.size());
     H.setFromTriplets(entries_.begin(), entries_.end());
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H);
-    const Vector of_free = factor.solve(rhs_);
+    return H;
+  }
+  const Vector& rhs() const { return rhs_; }  // -g
+  int row(int v) const { return row_[std::size_t(v)]; }
+
+  // A direction for all vertices, out of that of the free ones.
+  Vector of_all(const Vector& of_free) const {
     Vector dx = moved_;
     for (std::size_t v = 0; v < row_.size(); ++v)
       if (row_[v] >= 0) dx.segment<3>(3 * Eigen::Index(v)) = of_free.segment<3>(row_[v]);
     return dx;
+  }
+
+  // The direction, for all vertices. The blocks added must make up a positive definite matrix.
+  Vector solve() const {
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(lower());
+    return of_all(factor.solve(rhs_));
   }
 
  private:
