@@ -55,4 +55,15 @@ bool intersects_itself(const Vector& x, const std::vector<Face>& faces) {
   return found;
 }
 
+bool is_behind_a_plane(const Vector& x, const std::vector<onset::Plane>& planes) {
+  for (const onset::Plane& plane : planes) {
+    const auto& n = plane.normal;
+    const Kernel::Plane_3 exact(n[0], n[1], n[2], -plane.offset);
+    for (Eigen::Index v = 0; v < x.size(); v += 3)
+      if (exact.oriented_side(Kernel::Point_3(x[v], x[v + 1], x[v + 2])) != CGAL::ON_POSITIVE_SIDE)
+        return true;
+  }
+  return false;
+}
+
 }  // namespace simulation

@@ -38,3 +38,17 @@ TEST_CASE("faces with a common edge", "[unit]") {
   CHECK_FALSE(meet({0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 3, 1e-9}, hinge));
   CHECK_FALSE(meet({0, 0, 0, 4, 0, 0, 0, 4, 0, 1, -3, 0}, hinge));
 }
+
+TEST_CASE("vertices and planes", "[unit]") {
+  const std::vector<onset::Plane> ground{{{0, 0, 1}, 0}}, tilted{{{0.1, 0.2, 0.7}, 0.3}};
+  const auto behind = [](std::vector<double> x, const std::vector<onset::Plane>& planes) {
+    return simulation::is_behind_a_plane(points(std::move(x)), planes);
+  };
+  CHECK_FALSE(behind({0, 0, 1, 5, 5, 5e-324}, ground));
+  CHECK(behind({0, 0, 1, 5, 5, 0}, ground));
+  CHECK(behind({0, 0, 1, 5, 5, -5e-324}, ground));
+  CHECK_FALSE(behind({0, 0, -1}, {}));
+  // 0.1 + 0.2 of doubles is more than 0.3, exactly.
+  CHECK_FALSE(behind({1, 1, 0}, tilted));
+  CHECK(behind({1, 1, -1e-16}, tilted));
+}
