@@ -36,6 +36,16 @@ void append(onset::Constraints& to, const onset::Constraints& more) {
   to.bound.insert(to.bound.end(), more.bound.begin(), more.bound.end());
 }
 
+Multipliers::key_type key(const onset::Pair& p) { return {p.kind, p.a, p.b}; }
+
+// The free part of a direction.
+Vector of_free(const System& system, const Vector& dx) {
+  Vector part(system.rhs().size());
+  for (int v = 0; v < int(dx.size() / 3); ++v)
+    if (system.row(v) >= 0) part.segment<3>(system.row(v)) = at(dx, v);
+  return part;
+}
+
 // A x of each row.
 Vector product(const onset::Constraints& rows, const Vector& x) {
   Vector sum = Vector::Zero(rows.rows());
@@ -49,7 +59,9 @@ QuadraticProgram program_of(const System& system, const onset::Constraints& rows
   QuadraticProgram program{system.lower(),
                            system.rhs(),
                            {rows.rows(), system.rhs().size()},
-                           Eigen::Map<const Vector>(rows.bound.data(), rows.rows()) - product(rows, x)};
+                           Eigen::Map<const Vector>(rows.bound.data(), rows.rows()) - product(rows, x),
+                           {},
+                           {}};
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < rows.value.size(); ++k) {
     const int first = system.row(rows.dof[k] / 3);
@@ -72,13 +84,13 @@ double ConstrainedDirection::violation(const Vector& x) const {
 }
 
 ConstrainedDirection constrained_direction(const System& system, const onset::Mesh& surface, const Vector& x,
-                                           double eta, const onset::Options& options) {
+                                           double eta, const onset::Options& options, Multipliers& latest) {
   onset::Options within = options;
   within.min_separation = eta;
   const std::vector<int> full = full_ids(surface);
   const std::vector<double> start = on_surface(surface, x);
   const Vector moved = system.of_all(Vector::Zero(system.rhs().size()));
-  std::set<std::tuple<onset::PairKind, int, int>> known;
+  std::set<Multipliers::key_type> known;
   ConstrainedDirection found;
   found.dx = system.solve();
   const double penalty = (system.rhs().lpNorm<Eigen::Infinity>() + 1) / (kSoftness * eta);
@@ -93,7 +105,7 @@ ConstrainedDirection constrained_direction(const System& system, const onset::Me
     onset::ActiveSet added = set;
     added.contacts.clear();
     for (const onset::Contact& c : set)
-      if (known.insert({c.kind, c.a, c.b}).second) added.contacts.push_back(c);
+      if (known.insert(key(c)).second) added.contacts.push_back(c);
     found.complete = added.empty();
     if (found.complete || round == kRounds) return found;
     append(found.rows, onset::assemble_constraints(added, eta, full));
@@ -101,8 +113,14 @@ ConstrainedDirection constrained_direction(const System& system, const onset::Me
       c.vertices = surface.full_vertices(c);
       found.contacts.push_back(c);
     }
-    const QuadraticSolution solution =
-        solve(program_of(system, found.rows, x, moved), kAccuracy * eta, penalty);
+    QuadraticProgram program = program_of(system, found.rows, x, moved);
+    program.x_guess = of_free(system, found.dx);
+    program.multipliers_guess = Vector::Zero(found.rows.rows());
+    for (std::size_t i = 0; i < found.contacts.size(); ++i)
+      program.multipliers_guess[Eigen::Index(i)] = latest[key(found.contacts[i])];
+    const QuadraticSolution solution = solve(program, kAccuracy * eta, penalty);
+    for (std::size_t i = 0; i < found.contacts.size(); ++i)
+      latest[key(found.contacts[i])] = solution.multipliers[Eigen::Index(i)];
     found.dx = system.of_all(solution.x);
     found.multipliers = solution.multipliers;
     found.feasible = solution.feasible;

@@ -2,7 +2,9 @@
 // 2021, where contacts are added until a direction has none that is new.
 #pragma once
 
+#include <map>
 #include <onset/onset.hpp>
+#include <tuple>
 #include <vector>
 
 #include "simulation/contact.hpp"
@@ -10,6 +12,9 @@
 namespace elastic {
 
 using namespace simulation;
+
+// Of each pair the multiplier of its latest row, which later programs start from.
+using Multipliers = std::map<std::tuple<onset::PairKind, int, int>, double>;
 
 struct ConstrainedDirection {
   Vector dx;                              // of all vertices
@@ -28,6 +33,6 @@ struct ConstrainedDirection {
 // keep it, with the points and normals of their first contact. surface: of the full mesh, whose positions x
 // are.
 ConstrainedDirection constrained_direction(const System& system, const onset::Mesh& surface, const Vector& x,
-                                           double eta, const onset::Options& options);
+                                           double eta, const onset::Options& options, Multipliers& latest);
 
 }  // namespace elastic

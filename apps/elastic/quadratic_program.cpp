@@ -14,15 +14,17 @@ namespace qp = proxsuite::proxqp;
 
 // None where it ends without a solution.
 std::optional<QuadraticSolution> attempt(const Sparse& H, const Vector& g, const Sparse& A,
-                                         const Vector& bound, double accuracy) {
+                                         const Vector& bound, const Vector& x, const Vector& multipliers,
+                                         double accuracy) {
   qp::sparse::QP<double, int> solver(H.cols(), 0, A.rows());
   solver.settings.eps_abs = accuracy;
   solver.settings.eps_rel = 0;
   solver.settings.max_iter = 100;
+  solver.settings.initial_guess = qp::InitialGuessStatus::WARM_START;
   solver.settings.sparse_backend = qp::SparseBackend::SparseCholesky;
   const Vector none = Vector::Constant(A.rows(), std::numeric_limits<double>::infinity());
   solver.init(H, g, proxsuite::nullopt, proxsuite::nullopt, A, bound, none);
-  solver.solve();
+  solver.solve(x, Vector(), Vector(-multipliers));
   if (solver.results.info.status != qp::QPSolverOutput::PROXQP_SOLVED) return {};
   return QuadraticSolution{solver.results.x, (-solver.results.z).cwiseMax(0), true};
 }
@@ -30,8 +32,10 @@ std::optional<QuadraticSolution> attempt(const Sparse& H, const Vector& g, const
 // One more unknown a row.
 QuadraticProgram softened(const QuadraticProgram& program, double penalty) {
   const Eigen::Index n = program.A.cols(), rows = program.A.rows();
-  QuadraticProgram soft{Sparse(n + rows, n + rows), Vector::Zero(n + rows), Sparse(rows, n + rows),
-                        program.bound};
+  QuadraticProgram soft{Sparse(n + rows, n + rows), Vector::Zero(n + rows),
+                        Sparse(rows, n + rows),     program.bound,
+                        Vector::Zero(n + rows),     program.multipliers_guess};
+  soft.x_guess.head(n) = program.x_guess;
   soft.rhs.head(n) = program.rhs;
   std::vector<Eigen::Triplet<double>> lower, A;
   for (Eigen::Index c = 0; c < n; ++c) {
@@ -47,7 +51,8 @@ QuadraticProgram softened(const QuadraticProgram& program, double penalty) {
 
 std::optional<QuadraticSolution> attempt(const QuadraticProgram& program, double accuracy) {
   const Sparse H = program.lower.selfadjointView<Eigen::Lower>();
-  return attempt(H, -program.rhs, program.A, program.bound, accuracy);
+  return attempt(H, -program.rhs, program.A, program.bound, program.x_guess, program.multipliers_guess,
+                 accuracy);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ struct QuadraticProgram {
   Eigen::VectorXd rhs;                // -g
   Eigen::SparseMatrix<double> A;
   Eigen::VectorXd bound;
+  Eigen::VectorXd x_guess, multipliers_guess;  // where to start: it changes x within the accuracy
 };
 
 struct QuadraticSolution {

@@ -116,6 +116,10 @@ Scene pile(const SceneOptions& o) {
     b.add(kinds[(i + i / 4) % 3], b.turn(1.5), centre + Vec3(i / 4 * 0.1, 0, 0));
   }
   b.scene().planes.push_back({{0, 0, 1}, 0});
+  for (const double side : {-1.0, 1.0}) {  // four slopes around, on which nothing rolls away
+    b.scene().planes.push_back({{side * 0.8, 0, 0.6}, -0.18});
+    b.scene().planes.push_back({{0, side * 0.8, 0.6}, -0.18});
+  }
   return b.finish();
 }
 

@@ -32,8 +32,9 @@ struct SceneOptions {
 };
 
 // torus: one falls on a cone that stands still. bars: three side by side, held at both ends, which are
-// turned. pile: eight bodies fall on each other and on the ground, a plane. drop: a body out of a file,
-// `mesh`, falls on the ground. Throws std::invalid_argument for other names, app::InputError for the file.
+// turned. pile: eight bodies fall on each other and on the ground, a plane with four slopes around it. drop:
+// a body out of a file, `mesh`, falls on the ground. Throws std::invalid_argument for other names,
+// app::InputError for the file.
 Scene make_scene(const SceneOptions& options);
 
 }  // namespace elastic

@@ -53,6 +53,7 @@ struct Stepper::Goal {
   Vector start, inertial;  // inertial: where the vertices would go without forces inside
   Friction friction;
   bool has_friction;  // false: it still has to be made from the forces of the first constraints
+  Multipliers multipliers;
 };
 
 Stepper::Stepper(Scene scene, const Settings& settings, const std::optional<State>& start)
@@ -100,7 +101,7 @@ System Stepper::system(const Goal& goal, const Vector& moved) const {
   return system;
 }
 
-ConstrainedDirection Stepper::direction(const Goal& goal, const Vector& moved, StepReport& report) const {
+ConstrainedDirection Stepper::direction(Goal& goal, const Vector& moved, StepReport& report) const {
   const Timer assembly;
   const System newton = system(goal, moved);
   report.seconds_assembly += assembly.seconds();
@@ -109,7 +110,8 @@ ConstrainedDirection Stepper::direction(const Goal& goal, const Vector& moved, S
   if (has_barrier())
     found.dx = newton.solve();
   else
-    found = constrained_direction(newton, surface_, state_.x, settings_.separation, settings_.options);
+    found = constrained_direction(newton, surface_, state_.x, settings_.separation, settings_.options,
+                                  goal.multipliers);
   report.seconds_solve += solve.seconds() - found.seconds_collision;
   report.seconds_collision += found.seconds_collision;
   report.constraints = std::max(report.constraints, found.contacts.size());
@@ -177,11 +179,13 @@ StepReport Stepper::step() {
   const double h = settings_.time_step, time = (state_.step + 1) * h;
   const Vector start = state_.x;
   const bool lagged = has_barrier() || settings_.friction == 0;
-  Goal goal{start, start + h * state_.velocity,
+  Goal goal{start,
+            start + h * state_.velocity,
             lagged && has_barrier()
                 ? Friction(settings_.friction, 1e-3 * h, barrier_, close_, scene_.planes, start)
                 : Friction(1e-3 * h, {}),
-            lagged};
+            lagged,
+            {}};
   for (std::size_t v = 0; v < scene_.vertices(); ++v)
     goal.inertial.segment<3>(3 * Eigen::Index(v)) += h * h * scene_.gravity;
 

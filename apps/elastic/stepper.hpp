@@ -58,7 +58,7 @@ class Stepper {
   bool iterate(Goal& goal, const Vector& moved, bool descend, StepReport& report);
   System system(const Goal& goal, const Vector& moved) const;
   double energy(const Goal& goal, const Vector& x, const onset::ClosePairs& close) const;
-  ConstrainedDirection direction(const Goal& goal, const Vector& moved, StepReport& report) const;
+  ConstrainedDirection direction(Goal& goal, const Vector& moved, StepReport& report) const;
   Vector left_to_move(double time) const;
   onset::ClosePairs close_pairs(onset::ClosePairs of_surface) const;
   void finish(const Vector& before, StepReport& report);
