@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Draws frames that a simulator has written, side by side, as one PNG.
 
-  render.py OUT.png FRAME.ply... [--cloth FACES...] [--elevation DEGREES] [--azimuth DEGREES]
+  render.py OUT.png FRAME... [--cloth FACES...] [--elevation DEGREES] [--azimuth DEGREES]
+
+A .ply of onset_cloth is drawn in two colours, a .vtu of onset_elastic with a colour for each body, in the order of its vertices.
 """
 
 import argparse
@@ -14,7 +16,11 @@ import numpy as np
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 
-def read_frame(path):
+CLOTH, OTHER = [0.35, 0.55, 0.85], [0.85, 0.65, 0.4]
+BODIES = [CLOTH, OTHER, [0.45, 0.7, 0.45], [0.8, 0.45, 0.45], [0.6, 0.5, 0.8], [0.5, 0.7, 0.75], [0.8, 0.75, 0.4], [0.6, 0.6, 0.6]]
+
+
+def read_ply(path):
     """Vertices and faces of a frame, in the one layout that the simulators write."""
     with open(path, "rb") as file:
         counts = {}
@@ -29,17 +35,60 @@ def read_frame(path):
     return points, faces["v"]
 
 
-def draw(axes, points, faces, cloth, view):
+def read_vtu(path):
+    """Vertices and tetrahedra of a frame, likewise."""
+    with open(path, "rb") as file:
+        head, mark, arrays = file.read().partition(b'<AppendedData encoding="raw">\n_')
+    if not mark:
+        raise SystemExit(f"{path}: no VTU of a simulator")
+    values, at = [], 0
+    for kind in ("<f8", "<f8", "<i8"):  # positions, velocities, connectivity
+        size = int(np.frombuffer(arrays, "<u8", 1, at)[0])
+        values.append(np.frombuffer(arrays, kind, size // 8, at + 8))
+        at += 8 + size
+    return values[0].reshape(-1, 3), values[2].reshape(-1, 4)
+
+
+def surface(tetrahedra):
+    """The faces of one tetrahedron only."""
+    faces = tetrahedra[:, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]].reshape(-1, 3)
+    _, first, counts = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+    return faces[first[counts == 1]]
+
+
+def bodies(tetrahedra, vertices):
+    """For each vertex the number of its connected part, in the order of their vertices."""
+    part = np.arange(vertices)
+    while True:  # the least vertex spreads
+        least = part[tetrahedra].min(axis=1)
+        spread = part.copy()
+        np.minimum.at(spread, tetrahedra, least[:, None])
+        if (spread == part).all():
+            return np.unique(part, return_inverse=True)[1]
+        part = spread
+
+
+def read_frame(path, cloth):
+    """Vertices, faces, and a colour for each of them."""
+    if path.endswith(".vtu"):
+        points, tetrahedra = read_vtu(path)
+        faces = surface(tetrahedra)
+        return points, faces, np.array(BODIES)[bodies(tetrahedra, len(points))[faces[:, 0]] % len(BODIES)]
+    points, faces = read_ply(path)
+    return points, faces, np.where((np.arange(len(faces)) < cloth)[:, None], CLOTH, OTHER)
+
+
+def draw(axes, points, faces, colours, is_layered, view):
     corners = points[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True) + 1e-300
     light = np.array([0.3, -0.5, 0.8])
     shade = 0.35 + 0.65 * np.abs(normals @ light / np.linalg.norm(light))
-    is_cloth = np.arange(len(faces)) < cloth
     small = np.ptp(corners, axis=1).max(axis=1) < 1  # a floor of two triangles would hide all else
-    for order, (mine, colour) in enumerate([(small & ~is_cloth, [0.85, 0.65, 0.4]), (small & is_cloth, [0.35, 0.55, 0.85])]):
+    is_cloth = (colours == CLOTH).all(axis=1)
+    for order, mine in enumerate([small & ~is_cloth, small & is_cloth] if is_layered else [small]):
         if mine.any():  # faces are sorted by their middles: the cloth, which lies outside, is drawn last
-            shades = np.outer(shade[mine], colour)
+            shades = shade[mine][:, None] * colours[mine]
             axes.add_collection3d(Poly3DCollection(corners[mine], facecolors=shades, edgecolors=shades, linewidths=0.3,
                                                    zorder=order))
     used = corners[small].reshape(-1, 3)
@@ -66,7 +115,7 @@ def main():
     figure = plt.figure(figsize=(3 * len(options.frames), 3))
     for i, path in enumerate(options.frames):
         axes = figure.add_subplot(1, len(options.frames), i + 1, projection="3d", computed_zorder=False)
-        draw(axes, *read_frame(path), cloth[i], (options.elevation, options.azimuth))
+        draw(axes, *read_frame(path, cloth[i]), path.endswith(".ply"), (options.elevation, options.azimuth))
     figure.subplots_adjust(0, 0, 1, 1, 0, 0)
     figure.savefig(options.output, dpi=80)
 
