@@ -7,8 +7,8 @@
 
 #include "bindings.hpp"
 #include "conversion/arrays.hpp"
+#include "conversion/calls.hpp"
 #include "conversion/fields.hpp"
-#include "conversion/options.hpp"
 #include "conversion/records.hpp"
 #include "conversion/signatures.hpp"
 
@@ -48,9 +48,8 @@ void bind_active_set(nb::module_& m) {
   m.def(
       "construct_active_set",
       [](const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const nb::kwargs& named) {
-        const PositionsArgument x0("x_t0", x_t0), x1("x_t1", x_t1);
-        const onset::Options options = options_of(named);
-        return without_lock([&, mesh] { return onset::construct_active_set(mesh, x0, x1, options); });
+        return on_step(mesh, x_t0, x_t1, named,
+                       [](const auto&... of) { return onset::construct_active_set(of...); });
       },
       nb::arg("mesh"), nb::arg("x_t0"), nb::arg("x_t1"), nb::arg("options"),
       ONSET_STEP_SIG("construct_active_set", "ActiveSet"), doc("construct_active_set"));

@@ -4,22 +4,14 @@
 #include "bindings.hpp"
 #include "conversion/arrays.hpp"
 #include "conversion/callbacks.hpp"
+#include "conversion/calls.hpp"
 #include "conversion/fields.hpp"
-#include "conversion/options.hpp"
 #include "conversion/signatures.hpp"
 
 namespace onset_python {
 namespace {
 
 using onset::Candidates, onset::Mesh;
-
-template <class Call>
-Candidates find(const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const nb::kwargs& named,
-                const Call& call) {
-  const PositionsArgument x0("x_t0", x_t0), x1("x_t1", x_t1);
-  const onset::Options options = options_of(named);
-  return without_lock([&, mesh] { return call(mesh, x0, x1, options); });
-}
 
 void bind_list(nb::module_& m) {
   nb::class_<Candidates>(m, "Candidates", doc("Candidates"))
@@ -63,11 +55,11 @@ Candidates visit(const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, nb::callabl
     callback.require();
     visitor(kind, taken_array(std::vector<std::array<int, 2>>(pairs, pairs + count)));
   };
-  return find(mesh, x_t0, x_t1, named,
-              [&](const Mesh& copy, const onset::Positions& x0, const onset::Positions& x1,
-                  const onset::Options& options) {
-                return onset::visit_candidates(copy, x0, x1, hand_over, options);
-              });
+  return on_step(mesh, x_t0, x_t1, named,
+                 [&](const Mesh& copy, const onset::Positions& x0, const onset::Positions& x1,
+                     const onset::Options& options) {
+                   return onset::visit_candidates(copy, x0, x1, hand_over, options);
+                 });
 }
 
 }  // namespace
@@ -77,14 +69,14 @@ void bind_candidates(nb::module_& m) {
   m.def(
       "compute_candidates",
       [](const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const nb::kwargs& options) {
-        return find(mesh, x_t0, x_t1, options, onset::compute_candidates);
+        return on_step(mesh, x_t0, x_t1, options, onset::compute_candidates);
       },
       nb::arg("mesh"), nb::arg("x_t0"), nb::arg("x_t1"), nb::arg("options"),
       ONSET_STEP_SIG("compute_candidates", "Candidates"), doc("compute_candidates"));
   m.def(
       "count_candidates",
       [](const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const nb::kwargs& options) {
-        return find(mesh, x_t0, x_t1, options, onset::count_candidates);
+        return on_step(mesh, x_t0, x_t1, options, onset::count_candidates);
       },
       nb::arg("mesh"), nb::arg("x_t0"), nb::arg("x_t1"), nb::arg("options"),
       ONSET_STEP_SIG("count_candidates", "Candidates"), doc("count_candidates"));

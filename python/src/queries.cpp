@@ -1,6 +1,5 @@
 // One pair on its own.
 #include <onset/query.hpp>
-#include <stdexcept>
 #include <string>
 
 #include "bindings.hpp"
@@ -19,10 +18,7 @@ using onset::QueryResult;
 template <std::size_t Rows, std::size_t Axes>
 std::array<std::array<double, Axes>, Rows> points(const char* name, nb::handle values) {
   const DoublesArgument x(name, values);
-  if (x.axes() != 2 || x.rows() != Rows || x.cols() != Axes)
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(x.rows()) + " x " +
-                                std::to_string(x.cols()) + "; it must be " + std::to_string(Rows) + " x " +
-                                std::to_string(Axes));
+  x.require_shape(name, Rows, Axes);
   std::array<std::array<double, Axes>, Rows> result;
   for (std::size_t r = 0; r < Rows; ++r)
     for (std::size_t a = 0; a < Axes; ++a) result[r][a] = x(std::ptrdiff_t(r), std::ptrdiff_t(a));

@@ -6,8 +6,8 @@
 
 #include "bindings.hpp"
 #include "conversion/arrays.hpp"
+#include "conversion/calls.hpp"
 #include "conversion/fields.hpp"
-#include "conversion/options.hpp"
 #include "conversion/records.hpp"
 #include "conversion/reprs.hpp"
 #include "conversion/signatures.hpp"
@@ -36,26 +36,24 @@ void bind_step_result(nb::module_& m) {
 }
 
 StepResult step(const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const nb::kwargs& named) {
-  const PositionsArgument x0("x_t0", x_t0), x1("x_t1", x_t1);
-  const onset::Options options = options_of(named);
-  return without_lock([&, mesh] { return onset::compute_collision_free_stepsize(mesh, x0, x1, options); });
+  return on_step(mesh, x_t0, x_t1, named,
+                 [](const auto&... of) { return onset::compute_collision_free_stepsize(of...); });
 }
 
 StepResult step_of_candidates(const Mesh& mesh, const onset::Candidates& candidates, nb::handle x_t0,
                               nb::handle x_t1, double gap_share, const nb::kwargs& named) {
-  const PositionsArgument x0("x_t0", x_t0), x1("x_t1", x_t1);
-  const onset::Options options = options_of(named);
-  return without_lock([&, mesh] {
-    return onset::compute_collision_free_stepsize(mesh, candidates, x0, x1, options, gap_share);
+  return on_step(mesh, x_t0, x_t1, named, [&](const Mesh& copy, const auto&... of) {
+    return onset::compute_collision_free_stepsize(copy, candidates, of..., gap_share);
   });
 }
 
 StepResult cfl_step(const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const onset::ClosePairs& close,
                     double gap_share, const nb::kwargs& named) {
-  const PositionsArgument x0("x_t0", x_t0), x1("x_t1", x_t1);
-  const onset::Options options = options_of(named);
-  return without_lock(
-      [&, mesh] { return onset::compute_cfl_stepsize(mesh, x0, x1, close, options, gap_share); });
+  return on_step(mesh, x_t0, x_t1, named,
+                 [&](const Mesh& copy, const onset::Positions& x0, const onset::Positions& x1,
+                     const onset::Options& options) {
+                   return onset::compute_cfl_stepsize(copy, x0, x1, close, options, gap_share);
+                 });
 }
 
 // #V x dimension, of what the result holds.
@@ -90,9 +88,9 @@ void bind_truncated(nb::module_& m) {
   m.def(
       "truncate_step",
       [](const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const nb::kwargs& named) {
-        const PositionsArgument x0("x_t0", x_t0), x1("x_t1", x_t1);
-        const onset::TruncateOptions options = truncate_options_of(named);
-        return without_lock([&, mesh] { return onset::truncate_step(mesh, x0, x1, options); });
+        return on_step(
+            mesh, x_t0, x_t1, named, [](const auto&... of) { return onset::truncate_step(of...); },
+            &truncate_options_of);
       },
       nb::arg("mesh"), nb::arg("x_t0"), nb::arg("x_t1"), nb::arg("options"),
       nb::sig("def truncate_step(" ONSET_MOTION
@@ -116,9 +114,8 @@ void bind_steps(nb::module_& m) {
   m.def(
       "is_step_collision_free",
       [](const Mesh& mesh, nb::handle x_t0, nb::handle x_t1, const nb::kwargs& named) {
-        const PositionsArgument x0("x_t0", x_t0), x1("x_t1", x_t1);
-        const onset::Options options = options_of(named);
-        return without_lock([&, mesh] { return onset::is_step_collision_free(mesh, x0, x1, options); });
+        return on_step(mesh, x_t0, x_t1, named,
+                       [](const auto&... of) { return onset::is_step_collision_free(of...); });
       },
       nb::arg("mesh"), nb::arg("x_t0"), nb::arg("x_t1"), nb::arg("options"),
       ONSET_STEP_SIG("is_step_collision_free", "bool"), doc("is_step_collision_free"));

@@ -17,10 +17,7 @@ std::array<onset::Point, 4> points_of(const char* name, nb::handle values, onset
   const DoublesArgument x(name, values);
   const bool in_plane = kind == onset::PairKind::vertex_edge;
   const std::ptrdiff_t rows = in_plane ? 3 : 4, columns = in_plane ? 2 : 3;
-  if (x.axes() != 2 || x.rows() != rows || x.cols() != columns)
-    throw std::invalid_argument(std::string(name) + " is " + std::to_string(x.rows()) + " x " +
-                                std::to_string(x.cols()) + "; it must be " + std::to_string(rows) + " x " +
-                                std::to_string(columns));
+  x.require_shape(name, rows, columns);
   std::array<onset::Point, 4> points{};
   for (std::ptrdiff_t r = 0; r < 4; ++r)
     for (std::ptrdiff_t a = 0; a < columns; ++a)

@@ -123,6 +123,13 @@ DoublesArgument::DoublesArgument(const char* name, nb::handle x) : array_(viewed
     reject(name, "has " + std::to_string(array_.ndim()) + " axes; it must have two, or be flat");
 }
 
+void DoublesArgument::require_shape(const char* name, std::ptrdiff_t wanted_rows,
+                                    std::ptrdiff_t wanted_cols) const {
+  if (axes() != 2 || rows() != wanted_rows || cols() != wanted_cols)
+    reject(name, "is " + std::to_string(rows()) + " x " + std::to_string(cols()) + "; it must be " +
+                     std::to_string(wanted_rows) + " x " + std::to_string(wanted_cols));
+}
+
 onset::Positions DoublesArgument::positions() const {
   const std::ptrdiff_t count = rows() * cols(), row_stride = array_.stride(0);
   const std::ptrdiff_t col_stride = axes() == 2 ? array_.stride(1) : 1;

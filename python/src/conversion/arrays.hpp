@@ -25,6 +25,8 @@ class DoublesArgument {
   double operator()(std::ptrdiff_t row, std::ptrdiff_t col = 0) const {
     return array_.data()[row * array_.stride(0) + (axes() == 2 ? col * array_.stride(1) : 0)];
   }
+  // ValueError where it is not rows x cols.
+  void require_shape(const char* name, std::ptrdiff_t rows, std::ptrdiff_t cols) const;
   onset::Positions positions() const;
   std::vector<double> list() const;  // by rows
 
