@@ -89,7 +89,7 @@ class Plots(AppTest):
     def test_frames_of_the_cloth(self):
         faces, t0, _ = random_soup(1, 20)
         (self.folder / "frame.ply").write_bytes(ply(t0, faces, "binary_little_endian", "double"))
-        self.script(APPS / "cloth" / "render.py", "out.png", "frame.ply", "frame.ply", "--cloth", "10")
+        self.script(APPS / "simulation" / "render.py", "out.png", "frame.ply", "frame.ply", "--cloth", "10")
         self.assertEqual((self.folder / "out.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
     def test_gears(self):
