@@ -361,6 +361,21 @@ TEST_CASE("vertices within their safe distances never meet, all of them moving",
   CHECK(close_calls > 10);  // the bound is used up
 }
 
+TEST_CASE("coordinates that are too many are refused", "[unit]") {
+  const ipc::FaceVertexCandidate pair(0, 3);
+  const Eigen::MatrixXi faces = (Eigen::MatrixXi(1, 3) << 0, 1, 2).finished();
+  double toi = 0;
+  for (const int size : {0, 1, 8, 11, 13, 15, 1000}) {
+    const Eigen::VectorXd x = Eigen::VectorXd::Zero(size), right = Eigen::VectorXd::Zero(12);
+    CHECK_THROWS_AS(pair.ccd(x, right, toi), std::invalid_argument);
+    CHECK_THROWS_AS(pair.ccd(right, x, toi), std::invalid_argument);
+    CHECK_THROWS_AS(pair.compute_distance(x), std::invalid_argument);
+    CHECK_THROWS_AS(pair.compute_coefficients(x), std::invalid_argument);
+  }
+  CHECK_THROWS_AS(pair.dof(MatrixXd::Zero(4, 4), {}, faces), std::invalid_argument);
+  CHECK_THROWS_AS(pair.vertices(MatrixXd::Zero(4, 4), {}, faces), std::invalid_argument);
+}
+
 TEST_CASE("two points that run at each other share their gap", "[unit]") {
   const MatrixXd x = (MatrixXd(2, 3) << 0, 0, 0, 1, 0, 0).finished();
   const ipc::CollisionMesh mesh(x);
@@ -369,6 +384,10 @@ TEST_CASE("two points that run at each other share their gap", "[unit]") {
   REQUIRE(c.vv_candidates.size() == 1);
   const Eigen::VectorXd r = c.compute_per_vertex_safe_distances(mesh, x, 2);
   CHECK((r[0] <= 0.5 && r[0] > 0.499 && r[1] == r[0]));
+  for (const double all : {0x1p1020, std::numeric_limits<double>::max(), HUGE_VAL}) {
+    const Eigen::VectorXd far = c.compute_per_vertex_safe_distances(mesh, x, all);
+    CHECK((far[0] <= 0.5 && far[0] >= 0 && far[1] == far[0]));
+  }
   CHECK(c.compute_per_vertex_safe_distances(mesh, x, 0.25)[1] <= 0.25);
   CHECK(c.compute_per_vertex_safe_distances(mesh, x, 0.25, 0.25).isZero());
   CHECK_THROWS_AS(c.compute_per_vertex_safe_distances(mesh, x, 0.1, 0.2), std::invalid_argument);

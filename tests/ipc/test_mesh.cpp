@@ -87,6 +87,9 @@ TEST_CASE("a surface of the full mesh is made without faces, and of vertices tha
   CHECK_THROWS_WITH(ipc::CollisionMesh(without, orient, m.x, m.edges, m.faces),
                     Catch::Contains("vertex 6") && Catch::Contains("not included"));
   CHECK_THROWS_AS(ipc::CollisionMesh(std::vector<bool>(7), {}, m.x), std::invalid_argument);
+  for (const int columns : {1, 4, 6})
+    CHECK_THROWS_WITH(ipc::CollisionMesh(MatrixXd::Zero(8, columns), m.edges, m.faces),
+                      Catch::Contains("8 x " + std::to_string(columns)));
 
   // A map gives displacements of the full mesh; the rows of the surface are used.
   Eigen::SparseMatrix<double> map(8, 3);

@@ -64,4 +64,28 @@ class Argument {
 using Vertices = Argument<double>;
 using Ids = Argument<int>;
 
+// A vector argument of at most max_size coordinates: any vector of Eigen. A copy, since Eigen does not look
+// at the size of what it converts but in debug builds.
+// Throws std::invalid_argument for more coordinates.
+template <int max_size>
+class VectorArgument {
+ public:
+  template <class Derived>
+  VectorArgument(const Eigen::MatrixBase<Derived>& v) {  // NOLINT: implicit by design
+    static_assert(Derived::IsVectorAtCompileTime, "a vector");
+    if (v.size() > max_size)
+      throw std::invalid_argument(std::to_string(v.size()) + " coordinates; there are at most " +
+                                  std::to_string(max_size));
+    const typename Derived::PlainObject x = v;
+    vector_.resize(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) vector_[i] = double(x[i]);
+  }
+  const VectorMax<double, max_size>& operator*() const { return vector_; }
+  const VectorMax<double, max_size>* operator->() const { return &vector_; }
+
+ private:
+  VectorMax<double, max_size> vector_;
+};
+using Dofs = VectorArgument<12>;
+
 }  // namespace onset::ipc

@@ -192,7 +192,8 @@ class Candidates {
     // Subtracted without an error, or rounded down; twice that is exact.
     const double most = in_environment([&] {
       const double d = inflation_radius - min_distance;
-      return inflation_radius - d < min_distance ? std::nextafter(d, 0.0) : d;  // that difference is exact
+      const double below = inflation_radius - d < min_distance ? std::nextafter(d, 0.0) : d;  // exact
+      return std::min(below, std::ldexp(1.0, 1019));  // close pairs are looked for up to 2^1020
     });
     if (!(most > 0) || r.size() == 0) return r;
     Options options;

@@ -52,6 +52,9 @@ class CollisionMesh {
                 const Eigen::SparseMatrix<double>& displacement_map = {})
       : full_rest_(*full_rest_positions), edges_(*edges), faces_(*faces) {
     const std::size_t full = std::size_t(full_rest_.rows());
+    if (full > 0 && full_rest_.cols() != 2 && full_rest_.cols() != 3)
+      throw std::invalid_argument("rest_positions are " + shape(full_rest_) +
+                                  "; vertices have two or three coordinates");
     if (include_vertex.size() != full || (!orient_vertex.empty() && orient_vertex.size() != full))
       throw std::invalid_argument("include_vertex and orient_vertex are one flag for each of " +
                                   std::to_string(full) + " vertices");

@@ -47,6 +47,7 @@ class CollisionStencil {
   virtual std::array<index_t, STENCIL_SIZE> vertex_ids(const Ids& edges, const Ids& faces) const = 0;
   std::array<VectorMax3d, STENCIL_SIZE> vertices(const Vertices& x, const Ids& edges,
                                                  const Ids& faces) const {
+    require_space(*x);
     const auto ids = vertex_ids(edges, faces);
     std::array<VectorMax3d, STENCIL_SIZE> r;
     for (std::size_t i = 0; i < r.size(); ++i)
@@ -57,6 +58,7 @@ class CollisionStencil {
     return r;
   }
   VectorMax12d dof(const Vertices& x, const Ids& edges, const Ids& faces) const {
+    require_space(*x);
     const auto ids = vertex_ids(edges, faces);
     VectorMax12d r(num_vertices() * x->cols());
     for (int i = 0; i < num_vertices(); ++i)
@@ -66,7 +68,7 @@ class CollisionStencil {
 
   // The SQUARED distance, as in ipc-toolkit: the square of one within 2^-45 of the pair's size. NaN where
   // positions are not finite.
-  double compute_distance(const VectorMax12d& positions) const {
+  double compute_distance(const Dofs& positions) const {
     double squared = 0;
     in_default_float_environment([&] {
       const compat::Nearest nearest = closest(positions);
@@ -78,7 +80,7 @@ class CollisionStencil {
     return compute_distance(dof(x, edges, faces));
   }
   // Weights of the vertices whose sum is the vector between the closest points.
-  VectorMax4d compute_coefficients(const VectorMax12d& positions) const {
+  VectorMax4d compute_coefficients(const Dofs& positions) const {
     const compat::Nearest nearest = closest(positions);
     VectorMax4d r(num_vertices());
     for (int i = 0; i < r.size(); ++i) r[i] = nearest.weights[std::size_t(i)];
@@ -90,21 +92,25 @@ class CollisionStencil {
 
   // Tells whether the pair comes as close as min_distance by tmax, and when: as the queries of
   // narrow_phase_ccd say (NarrowPhaseCCD).
-  virtual bool ccd(const VectorMax12d& vertices_t0, const VectorMax12d& vertices_t1, double& toi,
-                   double min_distance = 0, double tmax = 1,
+  virtual bool ccd(const Dofs& vertices_t0, const Dofs& vertices_t1, double& toi, double min_distance = 0,
+                   double tmax = 1,
                    const NarrowPhaseCCD& narrow_phase_ccd = DEFAULT_NARROW_PHASE_CCD) const = 0;
 
  protected:
-  virtual compat::Nearest closest(const VectorMax12d& positions) const = 0;
-  // Vertex i of positions.
-  VectorMax3d point(const VectorMax12d& positions, int i) const {
-    const Eigen::Index size = positions.size() / num_vertices();
-    if (positions.size() != size * num_vertices() || (size != 2 && size != 3))
-      throw std::invalid_argument(std::to_string(positions.size()) + " coordinates, for " +
-                                  std::to_string(num_vertices()) + " vertices");
-    return positions.segment(i * size, size);
+  virtual compat::Nearest closest(const Dofs& positions) const = 0;
+  static void require_space(const Eigen::MatrixXd& x) {
+    if (x.cols() > 3)
+      throw std::invalid_argument("positions have " + std::to_string(x.cols()) + " columns, not 2 or 3");
   }
-  Eigen::Vector3d point3(const VectorMax12d& positions, int i) const {
+  // Vertex i of positions.
+  VectorMax3d point(const Dofs& positions, int i) const {
+    const Eigen::Index size = positions->size() / num_vertices();
+    if (positions->size() != size * num_vertices() || (size != 2 && size != 3))
+      throw std::invalid_argument(std::to_string(positions->size()) + " coordinates, for " +
+                                  std::to_string(num_vertices()) + " vertices");
+    return positions->segment(i * size, size);
+  }
+  Eigen::Vector3d point3(const Dofs& positions, int i) const {
     const VectorMax3d p = point(positions, i);
     if (p.size() != 3) throw std::invalid_argument("this pair has no place in two dimensions");
     return p;
@@ -119,8 +125,7 @@ class VertexVertexCandidate : public CollisionStencil {
   std::array<index_t, 4> vertex_ids(const Ids&, const Ids&) const override {
     return {vertex0_id, vertex1_id, -1, -1};
   }
-  bool ccd(const VectorMax12d& a, const VectorMax12d& b, double& toi, double min_distance = 0,
-           double tmax = 1,
+  bool ccd(const Dofs& a, const Dofs& b, double& toi, double min_distance = 0, double tmax = 1,
            const NarrowPhaseCCD& narrow_phase_ccd = DEFAULT_NARROW_PHASE_CCD) const override {
     return narrow_phase_ccd.point_point_ccd(point(a, 0), point(a, 1), point(b, 0), point(b, 1), toi,
                                             min_distance, tmax);
@@ -133,7 +138,7 @@ class VertexVertexCandidate : public CollisionStencil {
   index_t vertex0_id, vertex1_id;
 
  protected:
-  compat::Nearest closest(const VectorMax12d& x) const override {
+  compat::Nearest closest(const Dofs& x) const override {
     return compat::nearest(compat::moving_points(point(x, 0), point(x, 1), point(x, 0), point(x, 1)));
   }
 
@@ -151,8 +156,7 @@ class EdgeVertexCandidate : public CollisionStencil {
   std::array<index_t, 4> vertex_ids(const Ids& edges, const Ids&) const override {
     return {vertex_id, (*edges)(edge_id, 0), (*edges)(edge_id, 1), -1};
   }
-  bool ccd(const VectorMax12d& a, const VectorMax12d& b, double& toi, double min_distance = 0,
-           double tmax = 1,
+  bool ccd(const Dofs& a, const Dofs& b, double& toi, double min_distance = 0, double tmax = 1,
            const NarrowPhaseCCD& narrow_phase_ccd = DEFAULT_NARROW_PHASE_CCD) const override {
     return narrow_phase_ccd.point_edge_ccd(point(a, 0), point(a, 1), point(a, 2), point(b, 0), point(b, 1),
                                            point(b, 2), toi, min_distance, tmax);
@@ -164,7 +168,7 @@ class EdgeVertexCandidate : public CollisionStencil {
   index_t edge_id, vertex_id;
 
  protected:
-  compat::Nearest closest(const VectorMax12d& x) const override {
+  compat::Nearest closest(const Dofs& x) const override {
     return compat::nearest(compat::moving_point_and_edge(point(x, 0), point(x, 1), point(x, 2), point(x, 0),
                                                          point(x, 1), point(x, 2)));
   }
@@ -180,8 +184,7 @@ class EdgeEdgeCandidate : public CollisionStencil {
   std::array<index_t, 4> vertex_ids(const Ids& edges, const Ids&) const override {
     return {(*edges)(edge0_id, 0), (*edges)(edge0_id, 1), (*edges)(edge1_id, 0), (*edges)(edge1_id, 1)};
   }
-  bool ccd(const VectorMax12d& a, const VectorMax12d& b, double& toi, double min_distance = 0,
-           double tmax = 1,
+  bool ccd(const Dofs& a, const Dofs& b, double& toi, double min_distance = 0, double tmax = 1,
            const NarrowPhaseCCD& narrow_phase_ccd = DEFAULT_NARROW_PHASE_CCD) const override {
     return narrow_phase_ccd.edge_edge_ccd(point3(a, 0), point3(a, 1), point3(a, 2), point3(a, 3),
                                           point3(b, 0), point3(b, 1), point3(b, 2), point3(b, 3), toi,
@@ -195,7 +198,7 @@ class EdgeEdgeCandidate : public CollisionStencil {
   index_t edge0_id, edge1_id;
 
  protected:
-  compat::Nearest closest(const VectorMax12d& x) const override {
+  compat::Nearest closest(const Dofs& x) const override {
     const std::array<Point, 4> p{compat::point_of(point3(x, 0)), compat::point_of(point3(x, 1)),
                                  compat::point_of(point3(x, 2)), compat::point_of(point3(x, 3))};
     return compat::nearest({PairKind::edge_edge, p, p, {0, 1, 2, 3}});
@@ -215,8 +218,7 @@ class FaceVertexCandidate : public CollisionStencil {
   std::array<index_t, 4> vertex_ids(const Ids&, const Ids& faces) const override {
     return {vertex_id, (*faces)(face_id, 0), (*faces)(face_id, 1), (*faces)(face_id, 2)};
   }
-  bool ccd(const VectorMax12d& a, const VectorMax12d& b, double& toi, double min_distance = 0,
-           double tmax = 1,
+  bool ccd(const Dofs& a, const Dofs& b, double& toi, double min_distance = 0, double tmax = 1,
            const NarrowPhaseCCD& narrow_phase_ccd = DEFAULT_NARROW_PHASE_CCD) const override {
     return narrow_phase_ccd.point_triangle_ccd(point3(a, 0), point3(a, 1), point3(a, 2), point3(a, 3),
                                                point3(b, 0), point3(b, 1), point3(b, 2), point3(b, 3), toi,
@@ -229,7 +231,7 @@ class FaceVertexCandidate : public CollisionStencil {
   index_t face_id, vertex_id;
 
  protected:
-  compat::Nearest closest(const VectorMax12d& x) const override {
+  compat::Nearest closest(const Dofs& x) const override {
     const std::array<Point, 4> p{compat::point_of(point3(x, 0)), compat::point_of(point3(x, 1)),
                                  compat::point_of(point3(x, 2)), compat::point_of(point3(x, 3))};
     return compat::nearest({PairKind::vertex_face, p, p, {0, 1, 2, 3}});
@@ -246,8 +248,7 @@ class PlaneVertexCandidate : public CollisionStencil {
       : plane(plane), vertex_id(vertex_id) {}
   int num_vertices() const override { return 1; }
   std::array<index_t, 4> vertex_ids(const Ids&, const Ids&) const override { return {vertex_id, -1, -1, -1}; }
-  bool ccd(const VectorMax12d& a, const VectorMax12d& b, double& toi, double min_distance = 0,
-           double tmax = 1,
+  bool ccd(const Dofs& a, const Dofs& b, double& toi, double min_distance = 0, double tmax = 1,
            const NarrowPhaseCCD& narrow_phase_ccd = DEFAULT_NARROW_PHASE_CCD) const override {
     return compat::plane_impact(toi, plane, point(a, 0), point(b, 0), min_distance, tmax,
                                 narrow_phase_ccd.conservative_rescaling);
@@ -264,7 +265,7 @@ class PlaneVertexCandidate : public CollisionStencil {
   index_t vertex_id;
 
  protected:
-  compat::Nearest closest(const VectorMax12d& x) const override {
+  compat::Nearest closest(const Dofs& x) const override {
     return compat::nearest_to_plane(plane, point(x, 0));
   }
 };
