@@ -45,7 +45,9 @@ void bind_close_pairs(nb::module_& m) {
   m.def(
       "safe_step",
       [](nb::handle r, nb::handle dx) {
-        return onset::safe_step(doubles("r", r), PositionsArgument("dx", dx));
+        const std::vector<double> distances = doubles("r", r);
+        const PositionsArgument displacements("dx", dx);
+        return without_lock([&] { return onset::safe_step(distances, displacements); });
       },
       nb::arg("r"), nb::arg("dx"),
       nb::sig("def safe_step(r: " ONSET_ARRAY_LIKE ", dx: " ONSET_ARRAY_LIKE ") -> float"), doc("safe_step"));

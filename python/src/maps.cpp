@@ -79,7 +79,8 @@ void bind_maps(nb::module_& m) {
       .def(
           "positions",
           [](const VertexMap& map, nb::handle q) {
-            return taken_array(map.positions(matrix_of("q", q)))
+            const Eigen::MatrixXd dofs = matrix_of("q", q);
+            return taken_array(without_lock([&] { return map.positions(dofs); }))
                 .attr("reshape")(map.num_vertices(), map.dimension());
           },
           nb::arg("q"),
@@ -88,16 +89,23 @@ void bind_maps(nb::module_& m) {
       .def(
           "rounding",
           [](const VertexMap& map, nb::handle q0, nb::handle q1) {
-            return map.rounding(matrix_of("q0", q0), matrix_of("q1", q1));
+            const Eigen::MatrixXd from = matrix_of("q0", q0), to = matrix_of("q1", q1);
+            return without_lock([&] { return map.rounding(from, to); });
           },
           nb::arg("q0"), nb::arg("q1"),
           nb::sig("def rounding(self, q0: numpy.typing.ArrayLike, q1: numpy.typing.ArrayLike) -> float"),
           doc("VertexMap.rounding"))
-      .def("constraints", &VertexMap::constraints, nb::arg("surface"), doc("VertexMap.constraints"))
+      .def(
+          "constraints",
+          [](const VertexMap& map, const onset::Constraints& surface) {
+            return without_lock([&] { return map.constraints(surface); });
+          },
+          nb::arg("surface"), doc("VertexMap.constraints"))
       .def(
           "to_dofs",
           [](const VertexMap& map, nb::handle gradient) {
-            const Eigen::VectorXd g = map.to_dofs(matrix_of("gradient", gradient));
+            const Eigen::MatrixXd surface = matrix_of("gradient", gradient);
+            const Eigen::VectorXd g = without_lock([&] { return Eigen::VectorXd(map.to_dofs(surface)); });
             return taken_array(std::vector<double>(g.data(), g.data() + g.size()));
           },
           nb::arg("gradient"),
@@ -108,7 +116,8 @@ void bind_maps(nb::module_& m) {
           "hessian_to_dofs",
           [](const VertexMap& map, nb::handle row, nb::handle column, nb::handle value) {
             const std::ptrdiff_t n = map.dimension() * map.num_vertices();
-            return triplets(map.to_dofs(sparse(row, column, value, n, n)));
+            const Sparse surface = sparse(row, column, value, n, n);
+            return triplets(without_lock([&] { return Sparse(map.to_dofs(surface)); }));
           },
           nb::arg("row"), nb::arg("column"), nb::arg("value"),
           nb::sig(
@@ -116,7 +125,8 @@ void bind_maps(nb::module_& m) {
               "numpy.typing.ArrayLike) -> " ONSET_TRIPLETS),
           doc("VertexMap.to_dofs#2"))
       .def(
-          "matrix", [](const VertexMap& map) { return triplets(map.matrix()); },
+          "matrix",
+          [](const VertexMap& map) { return triplets(without_lock([&] { return Sparse(map.matrix()); })); },
           nb::sig("def matrix(self) -> " ONSET_TRIPLETS), doc("VertexMap.matrix"));
 }
 
