@@ -93,16 +93,28 @@ def test_ids_of_any_width(falling, dtype, order):
     ([[0, 1, 6]], "face row 0: vertex 6 is out of range"),
     ([[0, 1, 2], [3, -1, 5]], "face row 1: vertex -1"),
     ([[0, 1, 2**40]], "face row 0"),
-    (np.array([[0, 1, 2**64 - 1]], np.uint64), "face row 0"),
+    (np.array([[0, 1, 2**64 - 1]], np.uint64), "faces row 0: 18446744073709551615 is out of range"),
     ([[0.0, 1.0, 2.0]], "faces is an array of float64"),
     ([[0, 1, 1]], "face row 0"),
     ([[0, 1, 2, 3]], "4 columns"),
     ([0, 1, 2], "faces is of shape"),
     ([[True, False, True]], "faces is an array of bool"),
 ])
-def test_bad_faces_are_named(faces, what):
+def test_bad_faces_are_named(faces, what, recwarn):
     with pytest.raises(ValueError, match=what):
         onset_ccd.Mesh(6, faces)
+    assert not recwarn.list
+
+
+def test_masked_elements_are_refused(falling):
+    mesh = onset_ccd.Mesh(6, falling.faces)
+    masked = np.ma.array(falling.x_t0, mask=False)
+    assert not onset_ccd.has_intersections(mesh, masked)
+    masked[1, 2] = np.ma.masked
+    with pytest.raises(ValueError, match="x is a masked array"):
+        onset_ccd.has_intersections(mesh, masked)
+    with pytest.raises(ValueError, match="faces is a masked array"):
+        onset_ccd.Mesh(5, np.ma.array([[0, 1, 2]], mask=[[False, True, False]]))
 
 
 @pytest.mark.parametrize("vertices", [2**63, -2**63 - 1, 2**62, -1])

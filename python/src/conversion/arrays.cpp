@@ -3,6 +3,7 @@
 #include <nanobind/stl/string.h>
 
 #include <Eigen/Core>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -39,6 +40,13 @@ bool is_of_kind(const nb::object& array, const char* kinds) {
   throw std::invalid_argument(std::string(name) + " " + what);
 }
 
+// Of masked arrays numpy hands out what lies behind the mask, too.
+void require_unmasked(const char* name, nb::handle values) {
+  if (nb::hasattr(values, "mask") && nb::hasattr(values, "filled") &&
+      PyObject_IsTrue(numpy().attr("any")(values.attr("mask")).ptr()) == 1)
+    reject(name, "is a masked array with elements that are masked");
+}
+
 using Doubles = nb::ndarray<const double, nb::device::cpu>;
 
 // Doubles need to be aligned: numpy gives views of packed records that are not.
@@ -48,6 +56,7 @@ bool view(nb::handle x, Doubles& into) {
 
 Doubles viewed_or_copied(const char* name, nb::handle x) {
   Doubles array;
+  if (std::strcmp(Py_TYPE(x.ptr())->tp_name, "numpy.ndarray") != 0) require_unmasked(name, x);
   if (view(x, array)) return array;
   const nb::object given = as_array(name, x);
   const nb::object dtype = numpy().attr("float64");
@@ -56,7 +65,10 @@ Doubles viewed_or_copied(const char* name, nb::handle x) {
        !nb::cast<bool>(numpy().attr("can_cast")(given.attr("dtype"), dtype, "safe"))))
     reject(name, "is an array of " + type_of(given) + ", which float64 does not hold");
   if (is_of_kind(given, "iu") && nb::cast<int>(given.attr("itemsize")) > 4) {
+    const nb::object quiet = numpy().attr("errstate")(nb::arg("invalid") = "ignore");
+    quiet.attr("__enter__")();
     const nb::object back = given.attr("astype")(dtype).attr("astype")(given.attr("dtype"));
+    quiet.attr("__exit__")(nb::none(), nb::none(), nb::none());
     if (!nb::cast<bool>(numpy().attr("array_equal")(back, given)))
       reject(name, "has whole numbers that float64 does not hold");
   }
@@ -65,6 +77,17 @@ Doubles viewed_or_copied(const char* name, nb::handle x) {
                               : numpy().attr("zeros")(given.attr("shape"));
   if (!view(copy, array)) reject(name, "cannot be read as an array of float64");
   return array;
+}
+
+// numpy wraps what is too large around, with a warning at most.
+void require_int64(const char* name, const nb::object& given) {
+  if (!is_of_kind(given, "u") || nb::cast<std::size_t>(given.attr("itemsize")) < 8) return;
+  const auto largest = nb::cast<std::uint64_t>(given.attr("max")());
+  if (largest <= std::uint64_t(std::numeric_limits<std::int64_t>::max())) return;
+  const nb::object shape = given.attr("shape");
+  const std::size_t columns = nb::len(shape) < 2 ? 1 : nb::cast<std::size_t>(shape[1]);
+  const std::size_t row = nb::cast<std::size_t>(given.attr("argmax")()) / columns;
+  reject(name, "row " + std::to_string(row) + ": " + std::to_string(largest) + " is out of range");
 }
 
 // Integers as an array of int64, without elements also where they were of another type.
@@ -77,6 +100,8 @@ nb::ndarray<const std::int64_t, nb::device::cpu> integers(const char* name, nb::
   if (size > 0 && nb::cast<std::size_t>(given.attr("ndim")) != axes)
     reject(name,
            "is of shape " + shape_of(given) + "; it must have " + (axes == 1 ? "one axis" : "two axes"));
+  require_unmasked(name, values);
+  if (size > 0) require_int64(name, given);
   nb::ndarray<const std::int64_t, nb::device::cpu> array;
   const nb::object type = numpy().attr("int64");
   const nb::object as_int64 = size > 0 ? numpy().attr("ascontiguousarray")(given, type)
