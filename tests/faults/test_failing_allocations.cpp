@@ -27,7 +27,7 @@ const tbb::global_control four_workers(tbb::global_control::max_allowed_parallel
 // of the others.
 std::vector<std::int64_t> places_to_fail(std::int64_t count) {
   constexpr std::int64_t kSlack = 8;
-  const std::int64_t first = fuzz(40), others = fuzz(40);
+  const std::int64_t first = fuzz(30), others = fuzz(25);
   std::vector<std::int64_t> all;
   for (std::int64_t k = 1; k <= std::min(first, count + kSlack); ++k) all.push_back(k);
   if (count + kSlack <= first + others) {
