@@ -156,7 +156,8 @@ Motion make_motion_of(const MeshData& mesh, const Positions& x_t0, const Positio
     const int v = mesh.filter->static_ids[k];
     for (int a = 0; a < 3; ++a) {
       if (m.t0(v)[a] != m.t1(v)[a])
-        throw std::invalid_argument("vertex " + std::to_string(v) + " is static, but x_t0 and x_t1 differ");
+        throw std::invalid_argument("vertex " + std::to_string(v) +
+                                    " is static, but its positions at the two ends differ");
       same = same && same_bits(&m.t0(v)[a], &still->x[3 * k + std::size_t(m.axes[a])], 1);
     }
   }

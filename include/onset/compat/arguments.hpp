@@ -89,3 +89,13 @@ class VectorArgument {
 using Dofs = VectorArgument<12>;
 
 }  // namespace onset::ipc
+
+namespace onset::compat {
+
+// Throws std::invalid_argument for positions of more than three coordinates.
+inline void require_space(const Eigen::MatrixXd& x) {
+  if (x.cols() > 3)
+    throw std::invalid_argument("positions have " + std::to_string(x.cols()) + " columns, not 2 or 3");
+}
+
+}  // namespace onset::compat

@@ -47,7 +47,7 @@ class CollisionStencil {
   virtual std::array<index_t, STENCIL_SIZE> vertex_ids(const Ids& edges, const Ids& faces) const = 0;
   std::array<VectorMax3d, STENCIL_SIZE> vertices(const Vertices& x, const Ids& edges,
                                                  const Ids& faces) const {
-    require_space(*x);
+    compat::require_space(*x);
     const auto ids = vertex_ids(edges, faces);
     std::array<VectorMax3d, STENCIL_SIZE> r;
     for (std::size_t i = 0; i < r.size(); ++i)
@@ -58,7 +58,7 @@ class CollisionStencil {
     return r;
   }
   VectorMax12d dof(const Vertices& x, const Ids& edges, const Ids& faces) const {
-    require_space(*x);
+    compat::require_space(*x);
     const auto ids = vertex_ids(edges, faces);
     VectorMax12d r(num_vertices() * x->cols());
     for (int i = 0; i < num_vertices(); ++i)
@@ -98,10 +98,6 @@ class CollisionStencil {
 
  protected:
   virtual compat::Nearest closest(const Dofs& positions) const = 0;
-  static void require_space(const Eigen::MatrixXd& x) {
-    if (x.cols() > 3)
-      throw std::invalid_argument("positions have " + std::to_string(x.cols()) + " columns, not 2 or 3");
-  }
   // Vertex i of positions.
   VectorMax3d point(const Dofs& positions, int i) const {
     const Eigen::Index size = positions->size() / num_vertices();
