@@ -2,6 +2,7 @@
 
 #include "conversion/rules.hpp"
 
+#include <limits>
 #include <onset/collision_rules.hpp>
 #include <stdexcept>
 #include <string>
@@ -91,6 +92,39 @@ void set_rest(CollisionRules& rules, nb::handle x) {
       nb::for_getter(nb::sig("def " #member "(self) -> numpy.typing.NDArray")),                           \
       doc("CollisionRules." #member))
 
+// A member that is one number or flag: what it cannot be is an error that names it.
+#define ONSET_NUMBER(member, read, type, text)                                      \
+  def_prop_rw(                                                                      \
+      #member, [](const CollisionRules& r) { return r.member; },                    \
+      [](CollisionRules& r, nb::handle value) { r.member = read(#member, value); }, \
+      nb::for_getter(nb::sig("def " #member "(self) -> " type)),                    \
+      nb::for_setter(nb::sig("def " #member "(self, value: " type ", /) -> None")), text)
+
+[[noreturn]] void reject(const char* name, nb::handle value, const char* what) {
+  const std::string text =
+      std::string(name) + " must be " + what + ", not " + nb::cast<std::string>(nb::repr(value));
+  throw nb::type_error(text.c_str());
+}
+bool flag_of(const char* name, nb::handle value) {
+  if (PyBool_Check(value.ptr()) != 0) return value.is(nb::handle(Py_True));
+  const std::optional<bool> flag = numpy_flag(value);
+  if (!flag) reject(name, value, "True or False");
+  return *flag;
+}
+int count_of(const char* name, nb::handle value) {
+  if (!is_whole_number(value)) reject(name, value, "a whole number");
+  const std::ptrdiff_t count = whole_number(name, value);
+  const auto limits = std::numeric_limits<int>();
+  if (count < limits.min() || count > limits.max())
+    throw std::invalid_argument(std::string(name) + " " + std::to_string(count) + " is out of range");
+  return int(count);
+}
+double share_of(const char* name, nb::handle value) {
+  const std::optional<double> share = real_number(value);
+  if (!share) reject(name, value, "a number");
+  return *share;
+}
+
 const char* what_rules_are() {
   static const std::string text = std::string(doc("CollisionRules")) +
                                   "\n\nMembers are assigned as a whole, from anything that is like an array; "
@@ -130,9 +164,9 @@ void bind_collision_rules(nb::module_& m) {
       .ONSET_RULE(groups, bits)
       .ONSET_RULE(masks, bits)
       .ONSET_RULE(excluded_vertices, id_pairs)
-      .def_rw("weld", &CollisionRules::weld, doc("CollisionRules.weld"))
-      .def_rw("excluded_rings", &CollisionRules::excluded_rings, doc("CollisionRules.excluded_rings"))
-      .def_rw("rest_share", &CollisionRules::rest_share)
+      .ONSET_NUMBER(weld, flag_of, "bool", doc("CollisionRules.weld"))
+      .ONSET_NUMBER(excluded_rings, count_of, "int", doc("CollisionRules.excluded_rings"))
+      .ONSET_NUMBER(rest_share, share_of, "float", doc("CollisionRules.rest_positions"))
       .def_prop_rw(
           "rest_positions", &rest_of, &set_rest,
           nb::for_getter(nb::sig("def rest_positions(self) -> numpy.typing.NDArray[numpy.float64] | None")),

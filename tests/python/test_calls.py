@@ -164,9 +164,16 @@ def test_rules_of_the_wrong_kind(falling):
     for wrong in (dict(groups=[-1]), dict(groups=[2**32]), dict(bodies=[0.5]), dict(static_vertices=[0, 1]), dict(excluded_bodies=[(1, 2, 3)])):
         with pytest.raises(ValueError, match=next(iter(wrong))):
             onset_ccd.CollisionRules(**wrong)
-    for wrong in (dict(planes=[1]), dict(excluded_pairs=[1]), dict(nonsense=1), dict(weld="x")):
+    for wrong in (dict(planes=[1]), dict(excluded_pairs=[1]), dict(nonsense=1)):
         with pytest.raises(TypeError):
             onset_ccd.CollisionRules(**wrong)
+    for wrong in (dict(weld="x"), dict(weld=1), dict(excluded_rings=1.5), dict(excluded_rings=[1]), dict(rest_share="a")):
+        with pytest.raises(TypeError, match=next(iter(wrong)) + " must be"):
+            onset_ccd.CollisionRules(**wrong)
+    with pytest.raises(ValueError, match="excluded_rings 1099511627776 is out of range"):
+        onset_ccd.CollisionRules(excluded_rings=2**40)
+    rules = onset_ccd.CollisionRules(weld=np.True_, excluded_rings=np.int64(2), rest_share=np.float32(0.5))
+    assert rules.weld is True and rules.excluded_rings == 2 and rules.rest_share == 0.5
 
 
 @pytest.mark.parametrize("options, kind, what", [

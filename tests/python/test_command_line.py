@@ -70,7 +70,7 @@ FAULTS = [
     (["step", "a.obj", "none.obj"], 1, "none.obj: No such file or directory"),
     (["step", "a.obj", "touch.obj"], 1, "a.obj and touch.obj: different topology: 44 against 41 vertices"),
     (["step", "a.obj", "b.obj", "--static-body", "3"], 2, "--static-body 3: there are 1 bodies, numbered from 0 (see --bodies components)"),
-    (["step", "a.obj", "b.obj", "--static-body", "0"], 1, "vertex 25 is static, but x_t0 and x_t1 differ"),
+    (["step", "a.obj", "b.obj", "--static-body", "0"], 1, "vertex 25 is static, but its positions at the two ends differ"),
     (["step", "a.obj", "b.obj", "--tolerance", "0"], 2, "--tolerance: a finite number > 0 expected, not '0'"),
     (["step", "a.obj", "b.obj", "--plane", "0,0,0,1"], 2, "four finite numbers nx,ny,nz,offset and a normal other than 0 expected, not '0,0,0,1'"),
     (["step", "a.obj", "b.obj", "--rest-share", "0.5"], 2, "--rest-share needs --rest"),
