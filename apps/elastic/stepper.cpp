@@ -33,10 +33,6 @@ onset::Mesh make_surface(const Scene& scene) {
   return surface.mesh(rules);
 }
 
-std::vector<double> on_surface(const onset::Mesh& surface, const Vector& x) {
-  return surface.surface_positions(onset::Positions(x.data(), x.size() / 3));
-}
-
 // A hundred weights of the heaviest vertex at half of d-hat, about, and what an element shortened by d-hat
 // stores.
 double barrier_stiffness(const Bodies& bodies, const Scene& scene, const Settings& settings, double d_hat) {
@@ -60,16 +56,22 @@ Stepper::Stepper(Scene scene, const Settings& settings, const std::optional<Stat
     : scene_(std::move(scene)),
       settings_(settings),
       bodies_(scene_.rest, scene_.tetrahedra, scene_.is_free, settings.material),
+      cells_(scene_.tetrahedra),
       surface_(make_surface(scene_)),
+      filter_(surface_, on_surface(scene_.x), settings.filter),
       faces_(full_faces(surface_)),
       d_hat_(2 * settings.separation),
       barrier_(barrier_stiffness(bodies_, scene_, settings, d_hat_), d_hat_, scene_.rest),
-      state_(start.value_or(State{scene_.x, Vector::Zero(scene_.x.size()), 0})) {
-  const std::vector<double> x = on_surface(surface_, state_.x);
-  const onset::Positions positions(x.data(), surface_.num_vertices());
-  if (onset::has_intersections(surface_, positions, settings_.options))
+      state_(start.value_or(State{scene_.x, Vector::Zero(scene_.x.size()), 0, 0})) {
+  const Vector x = on_surface(state_.x);
+  if (onset::has_intersections(surface_, x, filter_.options()))
     throw std::invalid_argument("the start intersects itself");
-  close_ = close_pairs(onset::close_pairs(surface_, positions, d_hat_, settings_.options));
+  close_ = close_pairs(filter_.close_pairs(x, d_hat_));
+}
+
+Vector Stepper::on_surface(const Vector& x) const {
+  const std::vector<double> part = surface_.surface_positions(onset::Positions(x.data(), x.size() / 3));
+  return Eigen::Map<const Vector>(part.data(), Eigen::Index(part.size()));
 }
 
 onset::ClosePairs Stepper::close_pairs(onset::ClosePairs of_surface) const {
@@ -110,13 +112,13 @@ ConstrainedDirection Stepper::direction(Goal& goal, const Vector& moved, StepRep
   if (has_barrier())
     found.dx = newton.solve();
   else
-    found = constrained_direction(newton, surface_, state_.x, settings_.separation, settings_.options,
+    found = constrained_direction(newton, surface_, state_.x, settings_.separation, filter_.options(),
                                   goal.multipliers);
   report.seconds_solve += solve.seconds() - found.seconds_collision;
   report.seconds_collision += found.seconds_collision;
-  report.constraints = std::max(report.constraints, found.contacts.size());
-  report.programs += found.programs;
-  report.softened += !found.feasible || !found.complete;
+  report.constraints->rows = std::max(report.constraints->rows, found.contacts.size());
+  report.constraints->programs += found.programs;
+  report.constraints->softened += !found.feasible || !found.complete;
   return found;
 }
 
@@ -127,22 +129,22 @@ bool Stepper::iterate(Goal& goal, const Vector& moved, bool descend, StepReport&
   // A step may raise the energy where it mends rows: each is worth more than its force (an exact penalty).
   const double worth = found.contacts.empty() ? 0 : 2 * found.multipliers.maxCoeff();
   const double before = descend ? energy(goal, x, close_) + worth * found.violation(x) : INFINITY;
-  const std::vector<double> from = on_surface(surface_, x), along = on_surface(surface_, found.dx);
-  const onset::Positions positions(from.data(), surface_.num_vertices()),
-      direction(along.data(), surface_.num_vertices());
-  const Search taken =
-      search(surface_, positions, direction, d_hat_, settings_.options,
-             [&](double step, const onset::ClosePairs& close) {
-               const Vector next = x + step * found.dx;
-               return descend && !(energy(goal, next, has_barrier() ? close_pairs(close) : close) +
-                                       worth * found.violation(next) <=
-                                   before);
-             });
-  report.smallest_step = std::min(report.smallest_step, taken.limit);
-  if (taken.contact) report.toi = std::min(report.toi, taken.limit);
-  report.seconds_collision += taken.seconds_collision;
+  const Vector from = on_surface(x), along = on_surface(found.dx);
+  const auto next = [&](const Trial& trial) {
+    Vector there = x + trial.step * found.dx;
+    for (std::size_t i = 0; i < trial.cut.size(); ++i)
+      there[3 * surface_.full_vertex(std::ptrdiff_t(i / 3)) + Eigen::Index(i % 3)] = trial.cut[i];
+    return there;
+  };
+  const Search taken = search(filter_, from, along, d_hat_, [&](const Trial& trial) {
+    if (!descend) return false;
+    const Vector there = next(trial);
+    const double after = energy(goal, there, has_barrier() ? close_pairs(trial.close) : trial.close);
+    return !(after + worth * found.violation(there) <= before);
+  });
+  report.add(taken);
   if (taken.step == 0 && taken.limit > 0) return true;
-  x += taken.step * found.dx;
+  x = next(taken);
   close_ = close_pairs(taken.close);
   ++report.iterations;
   const bool had_friction = goal.has_friction;
@@ -175,6 +177,7 @@ Vector Stepper::left_to_move(double time) const {
 
 StepReport Stepper::step() {
   StepReport report;
+  report.constraints.emplace();
   const Timer timer;
   const double h = settings_.time_step, time = (state_.step + 1) * h;
   const Vector start = state_.x;
@@ -198,7 +201,7 @@ StepReport Stepper::step() {
     report.converged = iterate(goal, moved, true, report);
 
   finish(start, report);
-  report.seconds = timer.seconds();
+  report.seconds += timer.seconds();
   return report;
 }
 
@@ -207,13 +210,9 @@ void Stepper::finish(const Vector& before, StepReport& report) {
   state_.velocity = (state_.x - before) / settings_.time_step;
   report.step = ++state_.step;
   const Timer collision;
-  const std::vector<double> x = on_surface(surface_, state_.x);
-  close_ = close_pairs(
-      onset::close_pairs(surface_, {x.data(), surface_.num_vertices()}, d_hat_, settings_.options));
+  close_ = close_pairs(filter_.close_pairs(on_surface(state_.x), d_hat_));
   report.seconds_collision += collision.seconds();
-  report.contacts = close_.size();
-  report.closest = d_hat_;
-  for (const onset::ClosePair& p : close_) report.closest = std::min(report.closest, p.distance);
+  report.count(close_, d_hat_);
   report.least_volume = bodies_.least_volume(state_.x);
   report.energy = bodies_.energy(state_.x);
   double mass = 0, moment = 0;

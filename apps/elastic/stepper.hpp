@@ -1,4 +1,4 @@
-// Implicit Euler by Newton's method, every step of it filtered by onset::LineSearch. Contacts are kept off by
+// Implicit Euler by Newton's method, every step of it filtered by the library. Contacts are kept off by
 // constraints (sequential quadratic programming) or by a barrier.
 #pragma once
 
@@ -6,10 +6,9 @@
 #include <optional>
 
 #include "elastic/active_constraints.hpp"
-#include "elastic/frames.hpp"
 #include "elastic/scenes.hpp"
 #include "simulation/contact.hpp"
-#include "simulation/search.hpp"
+#include "simulation/program/program.hpp"
 
 namespace elastic {
 
@@ -22,36 +21,21 @@ struct Settings {
   double separation = 1e-3;  // m: eta of the constraints; the barrier reaches as far as twice that
   int iterations = 40;       // of Newton's method a step, at most
   Material material;
-  onset::Options options;
+  FilterSettings filter;
 };
 
-struct StepReport {
-  int step = 0;
-  double smallest_step = 1;  // that the line search allowed
-  double toi = 1;            // the same where a pair limited it
-  int iterations = 0;
-  bool converged = false;
-  double behind = 0;            // m: how far the vertices moved by hand are from where they should be
-  std::size_t contacts = 0;     // pairs within twice the separation at the end
-  double closest = 0;           // their least distance; twice the separation without any
-  std::size_t constraints = 0;  // the most rows of an iteration
-  int programs = 0;             // quadratic programs solved
-  int softened = 0;             // iterations whose rows contradicted each other
-  double energy = 0;            // J, of the elements and of motion, and of weight from z = 0
-  double height = 0;            // m, z of the centre of mass of what is free
-  double least_volume = 1;      // of an element, as a share of that at rest
-  double seconds_assembly = 0, seconds_solve = 0, seconds_collision = 0, seconds = 0;
-};
-
-class Stepper {
+class Stepper final : public Simulation {
  public:
   // Throws std::invalid_argument for a start that intersects itself.
   Stepper(Scene scene, const Settings& settings, const std::optional<State>& start = {});
 
-  StepReport step();
-  const State& state() const { return state_; }
-  const std::vector<std::array<int, 3>>& faces() const { return faces_; }  // of the surface, by full ids
-  const Scene& scene() const { return scene_; }
+  StepReport step() override;
+  const State& state() const override { return state_; }
+  double time_step() const override { return settings_.time_step; }
+  const Cells& cells() const override { return cells_; }
+  // By full ids.
+  const std::vector<std::array<int, 3>>& faces() const override { return faces_; }
+  const std::vector<onset::Plane>& planes() const override { return scene_.planes; }
 
  private:
   struct Goal;
@@ -62,12 +46,15 @@ class Stepper {
   Vector left_to_move(double time) const;
   onset::ClosePairs close_pairs(onset::ClosePairs of_surface) const;
   void finish(const Vector& before, StepReport& report);
+  Vector on_surface(const Vector& x) const;
   bool has_barrier() const { return settings_.contact == ContactMethod::barrier; }
 
   Scene scene_;
   Settings settings_;
   Bodies bodies_;
+  Cells cells_;
   onset::Mesh surface_;
+  Filter filter_;
   std::vector<std::array<int, 3>> faces_;
   double d_hat_;
   Barrier barrier_;

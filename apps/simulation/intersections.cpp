@@ -39,7 +39,7 @@ bool meet(const Points& p, Face f, Face g) {
 
 }  // namespace
 
-bool intersects_itself(const Vector& x, const std::vector<Face>& faces) {
+std::optional<std::pair<int, int>> faces_that_meet(const Vector& x, const std::vector<Face>& faces) {
   Points points;
   for (Eigen::Index v = 0; v < x.size(); v += 3) points.emplace_back(x[v], x[v + 1], x[v + 2]);
   std::vector<Box> boxes;
@@ -48,22 +48,34 @@ bool intersects_itself(const Vector& x, const std::vector<Face>& faces) {
     for (const int v : faces[f]) box += points[std::size_t(v)].bbox();
     boxes.emplace_back(box, int(f));
   }
-  bool found = false;
+  std::optional<std::pair<int, int>> first;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    found = found || meet(points, faces[std::size_t(a.info())], faces[std::size_t(b.info())]);
+    const std::pair<int, int> pair = std::minmax(a.info(), b.info());
+    if (first && *first <= pair) return;
+    if (meet(points, faces[std::size_t(pair.first)], faces[std::size_t(pair.second)])) first = pair;
   });
-  return found;
+  return first;
 }
 
-bool is_behind_a_plane(const Vector& x, const std::vector<onset::Plane>& planes) {
-  for (const onset::Plane& plane : planes) {
-    const auto& n = plane.normal;
-    const Kernel::Plane_3 exact(n[0], n[1], n[2], -plane.offset);
+std::optional<std::pair<int, int>> vertex_behind_plane(const Vector& x,
+                                                       const std::vector<onset::Plane>& planes) {
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const auto& n = planes[p].normal;
+    const Kernel::Plane_3 exact(n[0], n[1], n[2], -planes[p].offset);
     for (Eigen::Index v = 0; v < x.size(); v += 3)
       if (exact.oriented_side(Kernel::Point_3(x[v], x[v + 1], x[v + 2])) != CGAL::ON_POSITIVE_SIDE)
-        return true;
+        return std::pair(int(v / 3), int(p));
   }
-  return false;
+  return {};
+}
+
+std::string intersection_in_words(const Vector& x, const std::vector<Face>& faces,
+                                  const std::vector<onset::Plane>& planes) {
+  if (const auto pair = faces_that_meet(x, faces))
+    return "faces " + std::to_string(pair->first) + " and " + std::to_string(pair->second);
+  if (const auto pair = vertex_behind_plane(x, planes))
+    return "vertex " + std::to_string(pair->first) + " and plane " + std::to_string(pair->second);
+  return {};
 }
 
 }  // namespace simulation

@@ -1,18 +1,16 @@
-// Seconds since it was made.
+// CPU seconds of all threads since it was made: what else the machine is busy with does not count.
 #pragma once
 
-#include <chrono>
+#include "measure/timing.hpp"
 
 namespace simulation {
 
 class Timer {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return watch_.elapsed().cpu; }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  app::Stopwatch watch_;
 };
 
 }  // namespace simulation

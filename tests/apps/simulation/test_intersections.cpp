@@ -11,7 +11,7 @@ simulation::Vector points(std::vector<double> x) {
 }
 
 bool meet(const std::vector<double>& x, const Faces& faces) {
-  return simulation::intersects_itself(points(x), faces);
+  return simulation::faces_that_meet(points(x), faces).has_value();
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ TEST_CASE("faces with a common edge", "[unit]") {
 TEST_CASE("vertices and planes", "[unit]") {
   const std::vector<onset::Plane> ground{{{0, 0, 1}, 0}}, tilted{{{0.1, 0.2, 0.7}, 0.3}};
   const auto behind = [](std::vector<double> x, const std::vector<onset::Plane>& planes) {
-    return simulation::is_behind_a_plane(points(std::move(x)), planes);
+    return simulation::vertex_behind_plane(points(std::move(x)), planes).has_value();
   };
   CHECK_FALSE(behind({0, 0, 1, 5, 5, 5e-324}, ground));
   CHECK(behind({0, 0, 1, 5, 5, 0}, ground));

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "measure/timing.hpp"
 #include "simulation/system.hpp"
-#include "simulation/timer.hpp"
 
 namespace simulation {
 
@@ -26,7 +26,7 @@ class Bar {
  private:
   int steps_;
   bool shown_;
-  Timer timer_;
+  app::Stopwatch timer_;
 };
 
 }  // namespace simulation

@@ -1,4 +1,4 @@
-#include "simulation/output.hpp"
+#include "simulation/program/output.hpp"
 
 #include <unistd.h>
 
@@ -41,7 +41,7 @@ void Bar::show(int done) const {
   const int width = 40, full = steps_ > 0 ? width * done / steps_ : width;
   std::string left;
   if (done > 0) {
-    const long seconds = long(timer_.seconds() * (steps_ - done) / done + 0.5);
+    const long seconds = long(timer_.elapsed().wall * (steps_ - done) / done + 0.5);
     left = app::format(", %ld:%02ld left", seconds / 60, seconds % 60);
   }
   std::fprintf(stderr, "\r[%s%s] %d of %d steps%s\033[K", std::string(std::size_t(full), '#').c_str(),

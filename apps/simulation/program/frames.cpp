@@ -1,21 +1,22 @@
-#include "elastic/frames.hpp"
+#include "simulation/program/frames.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string_view>
 
 #include "files/error.hpp"
 #include "files/input.hpp"
 #include "files/output.hpp"
 #include "files/text_lines.hpp"
-#include "simulation/output.hpp"
+#include "simulation/program/output.hpp"
 
-namespace elastic {
+namespace simulation {
 namespace {
 
-constexpr const char* kStep = "<!-- step ";
-constexpr std::uint8_t kTetrahedron = 10;  // VTK's number of the cell
+constexpr const char *kStep = "<!-- step ", *kTurned = ", turned until ", *kEnd = " -->";
+constexpr std::uint8_t kTriangle = 5, kTetrahedron = 10;  // VTK's numbers of the cells
 
 template <class T>
 void append(std::string& to, const std::vector<T>& values) {
@@ -26,19 +27,19 @@ void append(std::string& to, const std::vector<T>& values) {
 
 std::vector<double> doubles(const Vector& x) { return {x.data(), x.data() + x.size()}; }
 
-// All but the step's number and the arrays' values is decided by these two numbers.
+// Where each array starts.
 struct Layout {
-  std::uint64_t points, velocity, connectivity, offsets, types;  // where each array starts
-  Layout(std::size_t vertices, std::size_t tetrahedra)
+  std::uint64_t points, velocity, connectivity, offsets, types;
+  Layout(std::size_t vertices, const Cells& cells)
       : points(0),
         velocity(8 + 24 * vertices),
         connectivity(2 * velocity),
-        offsets(connectivity + 8 + 32 * tetrahedra),
-        types(offsets + 8 + 8 * tetrahedra) {}
+        offsets(connectivity + 8 + 8 * cells.vertices.size()),
+        types(offsets + 8 + 8 * cells.size()) {}
 };
 
-std::string header(std::size_t vertices, std::size_t tetrahedra, int step) {
-  const Layout at(vertices, tetrahedra);
+std::string header(std::size_t vertices, const Cells& cells, const State& state) {
+  const Layout at(vertices, cells);
   const auto array = [](const char* type, const char* name, const char* more, std::uint64_t offset) {
     return app::format("<DataArray type=\"%s\" Name=\"%s\"%s format=\"appended\" offset=\"%llu\"/>\n", type,
                        name, more, (unsigned long long)offset);
@@ -46,8 +47,9 @@ std::string header(std::size_t vertices, std::size_t tetrahedra, int step) {
   const char* three = " NumberOfComponents=\"3\"";
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n" +
-         (kStep + std::to_string(step) + " -->\n<UnstructuredGrid>\n") +
-         app::format("<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n", vertices, tetrahedra) +
+         app::format("%s%d%s%.17g%s\n<UnstructuredGrid>\n", kStep, state.step, kTurned, state.turned_until,
+                     kEnd) +
+         app::format("<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n", vertices, cells.size()) +
          "<Points>\n" + array("Float64", "Points", three, at.points) + "</Points>\n<PointData>\n" +
          array("Float64", "velocity", three, at.velocity) + "</PointData>\n<Cells>\n" +
          array("Int64", "connectivity", "", at.connectivity) + array("Int64", "offsets", "", at.offsets) +
@@ -55,52 +57,55 @@ std::string header(std::size_t vertices, std::size_t tetrahedra, int step) {
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 }
 
-std::string body(const State& state, const std::vector<Tetrahedron>& tetrahedra) {
+std::string body(const State& state, const Cells& cells) {
   std::string bytes;
   append(bytes, doubles(state.x));
   append(bytes, doubles(state.velocity));
-  std::vector<std::int64_t> connectivity, offsets;
-  for (const Tetrahedron& t : tetrahedra) {
-    connectivity.insert(connectivity.end(), t.begin(), t.end());
-    offsets.push_back(std::int64_t(connectivity.size()));
-  }
-  append(bytes, connectivity);
+  std::vector<std::int64_t> offsets;
+  for (std::size_t c = 1; c <= cells.size(); ++c) offsets.push_back(std::int64_t(c) * cells.corners);
+  append(bytes, std::vector<std::int64_t>(cells.vertices.begin(), cells.vertices.end()));
   append(bytes, offsets);
-  append(bytes, std::vector<std::uint8_t>(tetrahedra.size(), kTetrahedron));
+  append(bytes, std::vector<std::uint8_t>(cells.size(), cells.corners == 3 ? kTriangle : kTetrahedron));
   return bytes + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+// The words between two marks.
+std::optional<std::string_view> between(std::string_view all, const char* before, const char* after) {
+  const std::size_t place = all.find(before);
+  if (place == std::string::npos) return {};
+  const std::size_t first = place + std::strlen(before), last = all.find(after, first);
+  if (last == std::string::npos || last - first > 30) return {};
+  return all.substr(first, last - first);
 }
 
 }  // namespace
 
-void write_frame(const std::string& path, const State& state, const std::vector<Tetrahedron>& tetrahedra) {
+void write_frame(const std::string& path, const State& state, const Cells& cells) {
   app::Output file(path);
-  file.write(header(std::size_t(state.x.size() / 3), tetrahedra.size(), state.step));
-  file.write(body(state, tetrahedra));
+  file.write(header(std::size_t(state.x.size() / 3), cells, state));
+  file.write(body(state, cells));
   file.publish();
 }
 
-State read_frame(const std::string& path, std::size_t vertices, const std::vector<Tetrahedron>& tetrahedra) {
+State read_frame(const std::string& path, std::size_t vertices, const Cells& cells) {
   const auto fail = [&](const std::string& cause) { throw app::InputError(path + ": " + cause); };
   app::InputFile file(path);
   const std::string all = app::read_rest(file, path, "", false);
   State state;
-  const std::size_t place = all.find(kStep);
-  if (place == std::string::npos) fail("no frame of onset_elastic");
-  const std::size_t first = place + std::strlen(kStep), last = all.find(" -->", first);
-  const auto step = last == std::string::npos || last - first > 9
-                        ? std::nullopt
-                        : app::parse_whole(std::string_view(all).substr(first, last - first));
-  if (!step || *step < 0) fail("no frame of onset_elastic");
-  state.step = int(*step);
+  const auto words = between(all, kStep, kTurned), time = between(all, kTurned, kEnd);
+  const double step = words && words->size() <= 9 ? double(app::parse_whole(*words).value_or(-1)) : -1;
+  const double turned = time ? app::parse_double(*time).value_or(-1) : -1;
+  if (!(step >= 0 && turned >= 0)) fail("no frame of this program");
+  state.step = int(step);
+  state.turned_until = turned;
   state.x = state.velocity = Vector::Zero(3 * Eigen::Index(vertices));
-  const std::string head = header(vertices, tetrahedra.size(), state.step);
-  if (all.size() != head.size() + body(state, tetrahedra).size() || all.compare(0, head.size(), head) != 0)
+  const std::string head = header(vertices, cells, state);
+  if (all.size() != head.size() + body(state, cells).size() || all.compare(0, head.size(), head) != 0)
     fail("a frame of another scene");
-  const Layout at(vertices, tetrahedra.size());
+  const Layout at(vertices, cells);
   std::memcpy(state.x.data(), all.data() + head.size() + at.points + 8, 24 * vertices);
   std::memcpy(state.velocity.data(), all.data() + head.size() + at.velocity + 8, 24 * vertices);
-  if (all.compare(head.size(), std::string::npos, body(state, tetrahedra)) != 0)
-    fail("a frame of another scene");
+  if (all.compare(head.size(), std::string::npos, body(state, cells)) != 0) fail("a frame of another scene");
   if (!state.x.allFinite() || !state.velocity.allFinite()) fail("a number that is not finite");
   return state;
 }
@@ -115,4 +120,4 @@ void write_series(const std::string& path, const std::vector<int>& steps, double
   file.publish();
 }
 
-}  // namespace elastic
+}  // namespace simulation
