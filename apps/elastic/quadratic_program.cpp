@@ -12,6 +12,9 @@ using simulation::Vector;
 using Sparse = Eigen::SparseMatrix<double>;
 namespace qp = proxsuite::proxqp;
 
+constexpr double kForces = 1e-6;     // accuracy of forces, of the largest one without rows
+constexpr double kLastResort = 100;  // by how much less accurate what has no solution may be
+
 // None where it ends without a solution.
 std::optional<QuadraticSolution> attempt(const Sparse& H, const Vector& g, const Sparse& A,
                                          const Vector& bound, const Vector& x, const Vector& multipliers,
@@ -49,10 +52,16 @@ QuadraticProgram softened(const QuadraticProgram& program, double penalty) {
   return soft;
 }
 
+// ProxQP has one accuracy for rows and for forces, which rounding does not let it reach where they differ
+// much in size: the objective is scaled, and the multipliers with it, so that the same number suits both.
 std::optional<QuadraticSolution> attempt(const QuadraticProgram& program, double accuracy) {
-  const Sparse H = program.lower.selfadjointView<Eigen::Lower>();
-  return attempt(H, -program.rhs, program.A, program.bound, program.x_guess, program.multipliers_guess,
-                 accuracy);
+  const double largest = program.rhs.lpNorm<Eigen::Infinity>();
+  const double scale = largest > 0 ? accuracy / (kForces * largest) : 1;
+  const Sparse H = scale * Sparse(program.lower.selfadjointView<Eigen::Lower>());
+  auto found = attempt(H, -scale * program.rhs, program.A, program.bound, program.x_guess,
+                       scale * program.multipliers_guess, accuracy);
+  if (found) found->multipliers /= scale;
+  return found;
 }
 
 }  // namespace
@@ -61,7 +70,9 @@ bool has_quadratic_solver() { return true; }
 
 QuadraticSolution solve(const QuadraticProgram& program, double accuracy, double penalty) {
   if (auto found = attempt(program, accuracy)) return *found;
-  auto found = attempt(softened(program, penalty), accuracy);
+  const QuadraticProgram soft = softened(program, penalty);
+  auto found = attempt(soft, accuracy);
+  if (!found) found = attempt(soft, kLastResort * accuracy);
   if (!found) throw std::runtime_error("the quadratic program has no solution");
   found->x.conservativeResize(program.A.cols());
   found->feasible = false;

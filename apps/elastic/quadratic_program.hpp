@@ -25,7 +25,7 @@ struct QuadraticSolution {
 bool has_quadratic_solver();
 
 // Minimizes 1/2 x . H x + g . x where A x >= bound, to an accuracy of `accuracy` in A x. Where no x will do,
-// or none is found, rows give way by s, at a price of penalty / 2 |s|^2.
+// or none is found, rows give way by s, at a price of penalty / 2 |s|^2; the last attempt is less accurate.
 //
 // Source: Bambade, El-Kazdadi, Taylor, Carpentier, "ProxQP: yet another quadratic programming solver for
 // robotics and beyond", Robotics: Science and Systems 2022.
