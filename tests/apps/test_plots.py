@@ -86,11 +86,28 @@ class Plots(AppTest):
         for image in re.findall(r"\]\((images/\S+)\)", filled):
             self.assertIn("</svg>", (docs / image).read_text(), image)
 
+    def test_trade_of_a_simulation(self):
+        """Short runs are measured, and the parts of the document that they are about are filled."""
+        docs, trade, document = self.folder / "docs", APPS / "simulation" / "trade", APPS.parent / "docs" / "simulation-trade.md"
+        docs.mkdir()
+        shutil.copy(document, docs)
+        self.script(trade / "measure.py", "out", "--cloth", os.environ["ONSET_CLOTH"], "--quick")
+        text = self.script(trade / "report.py", "out", docs)
+        self.assertRegex(text, r"3 runs at settings of Onset's own, 15 frames: 0 with intersections, 0 stalls, 0 runs that did not end")
+        before, after = (dict(MARKED.findall((folder / document.name).read_text())) for folder in (document.parent, docs))
+        self.assertEqual(list(after), list(before))
+        changed = {mark for mark, part in after.items() if part != before[mark]}
+        self.assertEqual(changed, {"summary", "promise", "peers", "cloth-sphere"})
+        self.assertIn("| step | per vertex |", after["cloth-sphere"])
+        self.assertIn("</svg>", (docs / "images" / "simulation-trade.svg").read_text())
+
     def test_frames_of_the_cloth(self):
         faces, t0, _ = random_soup(1, 20)
         (self.folder / "frame.ply").write_bytes(ply(t0, faces, "binary_little_endian", "double"))
         self.script(APPS / "simulation" / "render.py", "out.png", "frame.ply", "frame.ply", "--cloth", "10")
         self.assertEqual((self.folder / "out.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.script(APPS / "simulation" / "render.py", "out.gif", "frame.ply", "frame.ply", "--cloth", "10")
+        self.assertEqual((self.folder / "out.gif").read_bytes()[:6], b"GIF89a")
 
     def test_gears(self):
         self.script(SCRIPTS / "draw_gears.py", "gears.png")
