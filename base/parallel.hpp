@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <mutex>
 
 #include "base/float_environment.hpp"
 #include "base/function_ref.hpp"
@@ -30,6 +31,19 @@ void parallel_ranges(std::size_t count, std::size_t grain, F&& f) {
   }
   const auto chunk = [&](std::size_t first, std::size_t last) { in_float_environment(f, first, last); };
   backend::run_ranges(count, grain, FunctionRef<std::size_t, std::size_t>(chunk));
+}
+
+// Returns join(... join(none, f(first, last)) ...) over chunks of [0, count). The chunks come in any order,
+// so that `join` must not depend on it.
+template <class T, class F, class Join>
+T parallel_reduce(std::size_t count, std::size_t grain, T none, F&& f, Join&& join) {
+  std::mutex mutex;
+  parallel_ranges(count, grain, [&](std::size_t first, std::size_t last) {
+    const T mine = f(first, last);
+    const std::lock_guard<std::mutex> lock(mutex);
+    none = join(none, mine);
+  });
+  return none;
 }
 
 // f() in the caller's arena (threads == 0) or in one of at most `threads`, in the floating-point environment

@@ -2,7 +2,64 @@
 
 #include <cmath>
 
+#include "base/parallel.hpp"
+#include "base/simd/rows.hpp"
+
 namespace onset {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+// A row of a motion: x, y, z and padding.
+D4 swept_by(const Motion& m, const int* first, const int* last) {
+  D4 lo = D4::load(m.t0(*first)), hi = lo;
+  const auto widen = [&](const double* x) { lo = min(D4::load(x), lo), hi = max(D4::load(x), hi); };
+  widen(m.t1(*first));
+  for (++first; first != last; ++first) widen(m.t0(*first)), widen(m.t1(*first));
+  return hi - lo;
+}
+
+using Row = std::array<double, 4>;
+
+// The largest of of(i), i < count, >= 0.
+template <class F>
+Row largest_row(std::size_t count, const F& of) {
+  const auto of_range = [&](std::size_t first, std::size_t last) {
+    D4 widest = D4::all(0);
+    for (std::size_t i = first; i < last; ++i) widest = max(of(i), widest);
+    Row r;
+    widest.store(r.data());
+    return r;
+  };
+  return parallel_reduce(count, kGrain, Row{}, of_range, [](Row r, const Row& s) {
+    for (std::size_t a = 0; a < 4; ++a) r[a] = std::max(r[a], s[a]);
+    return r;
+  });
+}
+
+template <std::size_t N>
+std::array<double, 3> largest_swept_of(const std::vector<std::array<int, N>>& elements,
+                                       const std::vector<int>* listed, const Motion& m) {
+  const auto of = [&](const std::array<int, N>& e) { return swept_by(m, e.data(), e.data() + N); };
+  const Row r = listed ? largest_row(listed->size(),
+                                     [&](std::size_t i) { return of(elements[std::size_t((*listed)[i])]); })
+                       : largest_row(elements.size(), [&](std::size_t i) { return of(elements[i]); });
+  constexpr double kUp = 1 + 0x1p-52;  // hi - lo was rounded to nearest
+  return {r[0] * kUp, r[1] * kUp, r[2] * kUp};
+}
+
+D4 moved(const Motion& m, int v) { return abs(D4::load(m.t1(v)) - D4::load(m.t0(v))); }
+
+}  // namespace
+
+std::array<double, 3> largest_swept(const std::vector<std::array<int, 2>>& edges,
+                                    const std::vector<int>* listed, const Motion& m) {
+  return largest_swept_of(edges, listed, m);
+}
+std::array<double, 3> largest_swept(const std::vector<std::array<int, 3>>& faces,
+                                    const std::vector<int>* listed, const Motion& m) {
+  return largest_swept_of(faces, listed, m);
+}
 
 double Extents::largest() const {
   double r = 0;
@@ -26,16 +83,15 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
       face[a] = std::max(face[a], still->widest_face[m.axes[a]]);
     }
   }
-  std::array<double, 3> moved{};
-  const std::size_t vertices = filter.all ? std::size_t(m.num_vertices) : filter.moving_vertices.size();
-  for (std::size_t i = 0; i < vertices; ++i) {
-    const int v = filter.all ? int(i) : filter.moving_vertices[i];
-    for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], std::fabs(m.t1(v)[a] - m.t0(v)[a]));
-  }
+  const std::vector<int>& some = filter.moving_vertices;
+  const Row far =
+      filter.all ? largest_row(std::size_t(m.num_vertices), [&](std::size_t v) { return moved(m, int(v)); })
+                 : largest_row(some.size(), [&](std::size_t i) { return moved(m, some[i]); });
   for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor 1 + 4u
-    if (!mesh.faces.empty()) r.vertex_face[a] = (moved[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
+    if (!mesh.faces.empty())
+      r.vertex_face[a] = (far[std::size_t(a)] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
     if (mesh.dimension == 2)
-      r.vertex_edge[a] = (moved[a] * (1 + 0x1p-52) + edge[a] + gap) * (1 + 0x1p-51);
+      r.vertex_edge[a] = (far[std::size_t(a)] * (1 + 0x1p-52) + edge[a] + gap) * (1 + 0x1p-51);
     else if (!mesh.edges.empty())
       r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);
   }

@@ -9,26 +9,11 @@
 
 namespace onset {
 
-// Returns, per axis, the largest swept extent of elements of N vertices, those listed or all, rounded up.
-template <std::size_t N>
-std::array<double, 3> largest_swept(const std::vector<std::array<int, N>>& elements,
-                                    const std::vector<int>* listed, const Motion& m) {
-  std::array<double, 3> widest{};
-  const std::size_t count = listed ? listed->size() : elements.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& e = elements[listed ? std::size_t((*listed)[i]) : i];
-    for (int a = 0; a < 3; ++a) {
-      double lo = m.t0(e[0])[a], hi = lo;
-      for (int v : e) {
-        lo = std::min({lo, m.t0(v)[a], m.t1(v)[a]});
-        hi = std::max({hi, m.t0(v)[a], m.t1(v)[a]});
-      }
-      widest[a] = std::max(widest[a], hi - lo);
-    }
-  }
-  for (double& w : widest) w *= 1 + 0x1p-52;  // hi - lo was rounded to nearest
-  return widest;
-}
+// Returns, per axis, the largest swept extent of edges or of faces, those listed or all, rounded up.
+std::array<double, 3> largest_swept(const std::vector<std::array<int, 2>>& edges,
+                                    const std::vector<int>* listed, const Motion& m);
+std::array<double, 3> largest_swept(const std::vector<std::array<int, 3>>& faces,
+                                    const std::vector<int>* listed, const Motion& m);
 
 // Upper bounds, per stored axis, of the corner differences that a pair can have whose swept boxes are at most
 // `gap` apart: the sum of both swept extents and the gap (docs/theory.md, L31). Only primitives that take

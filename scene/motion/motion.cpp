@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/simd/rows.hpp"
 #include "scene/motion/canonical_axes.hpp"
 #include "scene/static_cache.hpp"
 
@@ -28,14 +30,46 @@ void check_shape(const char* name, int num_vertices, const Positions& x, int col
   throw std::invalid_argument(why);
 }
 
-std::array<int, 3> canonical_axes(const Motion& m) {
-  std::array<double, 3> width{};
-  for (int a = 0; a < 3; ++a) {
-    double lo = INFINITY, hi = -INFINITY;
-    for (int v = 0; v < m.num_vertices; ++v)
-      for (const double* x : {m.t0(v), m.t1(v)}) lo = std::min(lo, x[a]), hi = std::max(hi, x[a]);
-    width[a] = hi - lo;
+// What is known of all positions: their extent, and the first vertex with one that is not usable.
+struct Extent {
+  std::array<double, 4> lo, hi;
+  int bad_vertex = std::numeric_limits<int>::max();
+};
+
+// NaN is not usable.
+Extent extent(const Motion& m, std::size_t first, std::size_t last) {
+  Extent e;
+  const D4 most = D4::all(kMaxCoordinate);
+  D4 lo = D4::all(INFINITY), hi = D4::all(-INFINITY);
+  const double* x = m.x.data() + first * kMotionStride;
+  for (std::size_t v = first; v < last; ++v, x += kMotionStride) {
+    const D4 t0 = D4::load(x), t1 = D4::load(x + 4);
+    if (bits((abs(t0) <= most) & (abs(t1) <= most)) != 0xf) {
+      e.bad_vertex = int(v);
+      break;
+    }
+    lo = min(t1, min(t0, lo)), hi = max(t1, max(t0, hi));
   }
+  lo.store(e.lo.data()), hi.store(e.hi.data());
+  return e;
+}
+
+Extent extent(const Motion& m) {
+  Extent none;
+  none.lo.fill(INFINITY), none.hi.fill(-INFINITY);
+  return parallel_reduce(
+      std::size_t(m.num_vertices), kGrain, none,
+      [&](std::size_t first, std::size_t last) { return extent(m, first, last); },
+      [](Extent a, const Extent& b) {
+        for (std::size_t k = 0; k < 4; ++k)
+          a.lo[k] = std::min(a.lo[k], b.lo[k]), a.hi[k] = std::max(a.hi[k], b.hi[k]);
+        a.bad_vertex = std::min(a.bad_vertex, b.bad_vertex);
+        return a;
+      });
+}
+
+std::array<int, 3> canonical_axes(const Motion& m, const Extent& e) {
+  std::array<double, 3> width{e.hi[0] - e.lo[0], e.hi[1] - e.lo[1], e.hi[2] - e.lo[2]};
   if (m.in_plane) width[2] = -1;
   return widest_first(width, m.num_vertices,
                       [&](int v, int end, int a) { return (end == 0 ? m.t0(v) : m.t1(v))[a]; });
@@ -59,13 +93,6 @@ Outcome classify(const double* x) {
     if (std::fabs(x[a]) > kMaxCoordinate) result = Outcome::out_of_range;
   }
   return result;
-}
-
-void find_bad_vertex(Motion& m) {
-  for (int v = 0; v < m.num_vertices && m.status == Outcome::free; ++v)
-    for (const double* x : {m.t0(v), m.t1(v)})
-      if (const Outcome o = classify(x); o != Outcome::free && m.status == Outcome::free)
-        m.status = o, m.bad_vertex = v;
 }
 
 // Finds the canonical axes from the free vertices and what is known of the others. Returns false where a
@@ -191,9 +218,15 @@ Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t
 }
 
 void finish_motion(Motion& m) {
-  find_bad_vertex(m);
-  if (m.status != Outcome::free || m.num_vertices == 0) return;
-  m.axes = canonical_axes(m);
+  if (m.num_vertices == 0) return;
+  const Extent all = extent(m);
+  if (all.bad_vertex < m.num_vertices) {
+    m.bad_vertex = all.bad_vertex;
+    m.status = classify(m.t0(m.bad_vertex));
+    if (m.status == Outcome::free) m.status = classify(m.t1(m.bad_vertex));
+    return;
+  }
+  m.axes = canonical_axes(m, all);
   store_permuted(m);
 }
 
