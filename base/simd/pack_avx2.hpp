@@ -102,6 +102,12 @@ inline D4 inverse_power_of_two(D4 x) {
   const __m256i exponent = _mm256_and_si256(_mm256_castpd_si256(x.v), _mm256_set1_epi64x(0x7ff0000000000000));
   return {_mm256_castsi256_pd(_mm256_sub_epi64(_mm256_set1_epi64x(0x7fe0000000000000), exponent))};
 }
+inline void to_double(F8 a, D4& lo, D4& hi) {
+  lo.v = _mm256_cvtps_pd(_mm256_castps256_ps128(a.v));
+  hi.v = _mm256_cvtps_pd(_mm256_extractf128_ps(a.v, 1));
+}
+// The second four lanes before the first.
+inline F8 swap_halves(F8 a) { return {_mm256_permute2f128_ps(a.v, a.v, 1)}; }
 inline F8 to_float(D4 lo, D4 hi) {
   return {_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(lo.v)), _mm256_cvtpd_ps(hi.v), 1)};
 }

@@ -190,6 +190,12 @@ inline Double2 inverse_power_of_two(Double2 x) {
 inline D4 inverse_power_of_two(const D4& x) {
   return {inverse_power_of_two(x.lo), inverse_power_of_two(x.hi)};
 }
+inline void to_double(const F8& a, D4& lo, D4& hi) {
+  lo = {Double2{a.lo[0], a.lo[1]}, Double2{a.lo[2], a.lo[3]}};
+  hi = {Double2{a.hi[0], a.hi[1]}, Double2{a.hi[2], a.hi[3]}};
+}
+// The second four lanes before the first.
+inline F8 swap_halves(const F8& a) { return {a.hi, a.lo}; }
 inline F8 to_float(const D4& lo, const D4& hi) {
   return {Float4{float(lo.lo[0]), float(lo.lo[1]), float(lo.hi[0]), float(lo.hi[1])},
           Float4{float(hi.lo[0]), float(hi.lo[1]), float(hi.hi[0]), float(hi.hi[1])}};

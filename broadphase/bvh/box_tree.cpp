@@ -142,9 +142,11 @@ bool BoxTree::apart(const BoxTree& other, bool motion) const {
 }
 
 const BvhKernel& bvh_kernel(InstructionSet kernel) {
-  static constexpr BvhKernel scalar{bvh_scalar::fit_leaves, bvh_scalar::fit_level, bvh_scalar::traverse};
+  static constexpr BvhKernel scalar{bvh_scalar::fit_leaves, bvh_scalar::fit_level, bvh_scalar::write_vertices,
+                                    bvh_scalar::traverse};
 #ifdef ONSET_HAVE_AVX2
-  static constexpr BvhKernel avx2{bvh_avx2::fit_leaves, bvh_avx2::fit_level, bvh_avx2::traverse};
+  static constexpr BvhKernel avx2{bvh_avx2::fit_leaves, bvh_avx2::fit_level, bvh_avx2::write_vertices,
+                                  bvh_avx2::traverse};
   if (resolve_instruction_set(kernel) == InstructionSet::avx2) return avx2;
 #endif
   (void)kernel;

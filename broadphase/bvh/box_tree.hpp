@@ -14,6 +14,7 @@ namespace onset {
 struct BvhKernel {
   decltype(&bvh_scalar::fit_leaves) fit_leaves;
   decltype(&bvh_scalar::fit_level) fit_level;
+  decltype(&bvh_scalar::write_vertices) write_vertices;
   decltype(&bvh_scalar::traverse) traverse;
 };
 // Returns the kernel of an instruction set, which it resolves.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "broadphase/interval.hpp"
+#include "broadphase/bvh/box_tree.hpp"
 
 namespace onset {
 
@@ -98,7 +98,6 @@ float FloatMap::between_knots(double x, std::size_t axis) const {
 namespace {
 
 constexpr std::size_t kGrain = 2048;
-constexpr std::size_t kAhead = 16;  // prefetched: the processor cannot foresee the order
 
 // Writes one end of a record and returns the axes on which the map rounded.
 int write_end(const FloatMap& map, const std::array<double, 3>& lo, const std::array<double, 3>& hi,
@@ -117,63 +116,55 @@ int write_record(const FloatMap& map, const MotionBox& box, float* out) {
   return write_end(map, box.lo_t0, box.hi_t0, out) | write_end(map, box.lo_t1, box.hi_t1, out + kBlock);
 }
 
-// Does so for both ends of a vertex that is not widened: x y z 0 x y z 0.
-int write_point(const FloatMap& map, const double* x, float* out) {
-  float y[8];
-  int rounded[8];
-  for (std::size_t k = 0; k < 8; ++k) {
-    y[k] = map(x[k], k % 4);
-    rounded[k] = int(!map.inverts(y[k], x[k], k % 4));
+int write_any(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
+              const int* ids, std::size_t first, std::size_t last, const RecordsAt& at) {
+  const bool swept = input.test == BoxTest::swept;
+  float record[2 * kBlock];
+  int rounded = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    rounded |= write_record(map, motion_box(input, kind, ids[i], inflation), record);
+    float* out = at(i, ids[i]);
+    for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
+    if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);
   }
-  for (std::size_t k = 0; k < 4; ++k) {
-    out[k] = 0 - y[k], out[4 + k] = y[k];
-    out[8 + k] = 0 - y[4 + k], out[12 + k] = y[4 + k];
-  }
-  return (rounded[0] | rounded[4]) | (rounded[1] | rounded[5]) << 1 | (rounded[2] | rounded[6]) << 2;
-}
-
-// Does so for a vertex widened by r > 0, as motion_box widens it. The map is then not one to one.
-int write_widened_point(const FloatMap& map, const double* x, double r, float* out) {
-  float below[8], above[8];
-  for (std::size_t k = 0; k < 8; ++k) below[k] = map(widen_down(x[k], r), k % 4);
-  for (std::size_t k = 0; k < 8; ++k) above[k] = map(widen_up(x[k], r), k % 4);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const bool padding = k == 3;
-    out[k] = padding ? 0 : 0 - below[k], out[4 + k] = padding ? 0 : above[k];
-    out[8 + k] = padding ? 0 : 0 - below[4 + k], out[12 + k] = padding ? 0 : above[4 + k];
-  }
-  return 7;
+  return rounded;
 }
 
 }  // namespace
 
+int write_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
+                   const int* ids, std::size_t count, const RecordsAt& at, const Stop& stop) {
+  const bool rows = kind == Primitive::vertex && input.mesh.thickness.empty() && map.is_linear();
+  SupportArguments vertices{};
+  if (rows) {
+    map.describe(vertices);
+    vertices.motion = input.motion.x.data(), vertices.ids = ids;
+    vertices.inflation = inflation, vertices.t_max = input.t_max;
+    vertices.swept = input.test == BoxTest::swept, vertices.by_id = at.by_id, vertices.records = at.records;
+  }
+  const BvhKernel& kernel = bvh_kernel(input.instruction_set);
+  std::atomic<int> rounded{0};
+  parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
+    int mine = 0;
+    for (; first < last && !stop.requested(); first += kGrain) {
+      const std::size_t end = std::min(first + kGrain, last);
+      mine |= rows ? kernel.write_vertices(vertices, first, end)
+                   : write_any(input, inflation, map, kind, ids, first, end, at);
+    }
+    rounded.fetch_or(mine);
+  });
+  return rounded;
+}
+
 Supports make_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
                        const int* ids, std::size_t count, const Stop& stop) {
-  const bool swept = input.test == BoxTest::swept;
-  const bool points = kind == Primitive::vertex && input.mesh.thickness.empty() && input.t_max == 1;
-  const std::size_t stride = std::size_t(kBoxStrideOf[!swept]);
+  const std::size_t stride = std::size_t(kBoxStrideOf[input.test != BoxTest::swept]);
   Supports s;
   s.count = count;
   s.records = AlignedArray<float>((s.count + 1) * stride);
   std::fill_n(s.records.data() + s.count * stride, stride, kNowhere);
-  std::atomic<int> rounded{0};
-  parallel_ranges(s.count, kGrain, [&](std::size_t first, std::size_t last) {
-    int mine = 0;
-    float record[2 * kBlock];
-    each_unless(stop, first, last, [&](std::size_t i) {
-      if (points && i + kAhead < last) __builtin_prefetch(input.motion.t0(ids[i + kAhead]));
-      if (points)
-        mine |= inflation == 0 ? write_point(map, input.motion.t0(ids[i]), record)
-                               : write_widened_point(map, input.motion.t0(ids[i]), inflation, record);
-      else
-        mine |= write_record(map, motion_box(input, kind, ids[i], inflation), record);
-      float* out = s.records.data() + i * stride;
-      for (int k = 0; k < kBlock; ++k) out[k] = swept ? std::max(record[k], record[kBlock + k]) : record[k];
-      if (!swept) std::copy(record + kBlock, record + 2 * kBlock, out + kBlock);
-    });
-    rounded.fetch_or(mine);
-  });
-  s.rounded_axes = rounded;
+  s.rounded_axes =
+      write_supports(input, inflation, map, kind, ids, count, {s.records.data(), stride, false}, stop);
   return s;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "base/aligned.hpp"
@@ -36,9 +37,20 @@ class FloatMap {
   }
   // Says whether it is linear, but for rounding to float, where floats stay below kLargest.
   bool is_linear() const { return knots_[0].empty() && knots_[1].empty() && knots_[2].empty(); }
+  // Says whether coordinates of up to this magnitude stay below kLargest, where it is linear.
+  bool keeps(double magnitude) const {
+    double furthest = 0;
+    for (const double c : centre_) furthest = std::max(furthest, (magnitude + std::fabs(c)) * scale_);
+    return furthest < 0.5 * double(kLargest);
+  }
   // Says whether y gives x back. The map is one to one on a set where this holds for all of it.
   bool inverts(float y, double x, std::size_t axis) const {
     return double(y) * inverse_ + centre_[axis] == x && knots_[axis].empty();
+  }
+  // Fills in what a kernel needs to know of it; only where it is linear.
+  void describe(SupportArguments& arguments) const {
+    for (std::size_t a = 0; a < 4; ++a) arguments.centre[a] = centre_[a];
+    arguments.scale = scale_, arguments.inverse = inverse_;
   }
 
  private:
@@ -64,6 +76,19 @@ struct Supports {
   // Bit i: the map is not one to one on axis i.
   int rounded_axes = 0;
 };
+
+// Where the record of the i-th primitive goes: at its place in the list, or at its id.
+struct RecordsAt {
+  float* records;
+  std::size_t stride;
+  bool by_id;
+  float* operator()(std::size_t i, int id) const { return records + (by_id ? std::size_t(id) : i) * stride; }
+};
+
+// Writes the records of the primitives ids[0..count), each widened by `inflation` and its own thickness; not
+// all of them where it was stopped. Returns Supports::rounded_axes.
+int write_supports(const BroadPhaseInput& input, double inflation, const FloatMap& map, Primitive kind,
+                   const int* ids, std::size_t count, const RecordsAt& at, const Stop& stop = {});
 
 // Makes the supports of the primitives ids[0..count), each widened by `inflation` and its own thickness; not
 // all of them where it was stopped.

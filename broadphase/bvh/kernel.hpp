@@ -58,6 +58,19 @@ struct TraversalMemory {
   alignas(32) unsigned char bytes[40 << 10];
 };
 
+// What makes the supports of vertices without thickness, through a linear FloatMap.
+struct SupportArguments {
+  double centre[4], scale, inverse;  // of the map; the fourth is padding
+  const double* motion;              // a row of eight a vertex: x y z 0 at t = 0, x y z 0 at t = 1
+  const int* ids;
+  double inflation, t_max;
+  // Whether a record has one end only, that of the whole motion.
+  bool swept;
+  // Where the record of ids[i] goes: at i, or at its id.
+  bool by_id;
+  float* records;
+};
+
 struct TraverseArguments {
   TreeView query, tree;
   BoxTest test;
@@ -89,6 +102,7 @@ struct TraverseArguments {
   namespace isa {                                                                                    \
   void fit_leaves(const FitArguments& arguments, std::size_t first, std::size_t last);               \
   void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, std::size_t last); \
+  int write_vertices(const SupportArguments& arguments, std::size_t first, std::size_t last);        \
   void traverse(const TraverseArguments& arguments);                                                 \
   }
 ONSET_DECLARE_BVH_KERNEL(bvh_scalar)
