@@ -15,6 +15,9 @@
 
 namespace onset {
 
+// Which of the pairs a call will look at: all, all up to the earliest contact, or until there is one.
+enum class Looks { at_all, at_earliest, at_any };
+
 // What a broad phase is made from.
 struct BroadPhaseInput {
   const MeshData& mesh;
@@ -29,6 +32,9 @@ struct BroadPhaseInput {
   double static_inflation = -1;
   // Whether only pairs of intersection_kind are wanted, by the swept test; else all kinds that a step has.
   bool intersections = false;
+  Looks looks = Looks::at_any;
+  // The most pairs that may be held for later calls (broadphase/held/).
+  std::size_t most_held = 0;
 };
 
 inline std::vector<PairKind> wanted_kinds(const BroadPhaseInput& input) {

@@ -40,7 +40,8 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
   set.dimension = mesh.dimension();
   in_arena(options.threads, [&] {
     Budget budget(options);
-    StepSetup setup(mesh, x_t0, x_t1, options, StepSetup::Use::contacts, set.stats, budget);
+    StepSetup setup(mesh, x_t0, x_t1, options, StepSetup::Use::contacts, set.stats, budget, 0,
+                    options.window < 1 ? Looks::at_earliest : Looks::at_all);
     set.outcome = setup.motion.status;
     set.vertex = setup.motion.bad_vertex;
     if (set.outcome != Outcome::free) return;

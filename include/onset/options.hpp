@@ -127,6 +127,11 @@ struct Options {
   bool touching_may_pass_through = false;
 
   BroadPhaseMethod broad_phase = BroadPhaseMethod::automatic;
+  // Whether the mesh may hold candidate pairs from one call to the next, at most 64 bytes a vertex, face and
+  // edge, and memory_limit: where positions hardly change between calls, as in the iterations of a Newton
+  // solver, only these are then tested. The answer is the same bytes; Stats::broad_phase is "held".
+  // Mesh::release_memory gives the memory back.
+  bool hold_candidates = true;
   NarrowPhaseMethod narrow_phase = NarrowPhaseMethod::automatic;
   InstructionSet instruction_set = InstructionSet::automatic;
 };

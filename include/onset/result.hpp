@@ -193,6 +193,7 @@ struct Stats {
   bool made_static_boxes = false;
   int threads = 0;
   const char* instruction_set = "";
+  // bvh, hash or brute; held: candidates of an earlier call, tested again (Options::hold_candidates); listed.
   const char* broad_phase = "";
 };
 

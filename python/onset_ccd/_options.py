@@ -30,6 +30,7 @@ class Options(TypedDict, total=False):
     threads: int
     exactness: "Exactness | str"
     touching_may_pass_through: bool
+    hold_candidates: bool
     broad_phase: "BroadPhaseMethod | str"
     narrow_phase: "NarrowPhaseMethod | str"
     instruction_set: "InstructionSet | str"

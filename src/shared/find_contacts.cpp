@@ -166,7 +166,8 @@ StepResult step_of_motion(const Mesh& mesh, const Positions& x_t0, const Positio
   StepResult r;
   const StepSetup::Use use =
       collect == Collect::first ? StepSetup::Use::stored_step : StepSetup::Use::contacts;
-  StepSetup setup(mesh, x_t0, x_t1, options, use, r.stats, budget);
+  const Looks looks = collect == Collect::first ? Looks::at_earliest : Looks::at_any;
+  StepSetup setup(mesh, x_t0, x_t1, options, use, r.stats, budget, 0, looks);
   r.outcome = setup.motion.status;
   r.vertex = setup.motion.bad_vertex;
   if (r.outcome != Outcome::free) return r;

@@ -5,6 +5,7 @@
 
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
+#include "broadphase/held/holding_tree.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion/extents.hpp"
 #include "scene/motion/storing.hpp"
@@ -44,7 +45,23 @@ std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const Broad
       return used;
     }
   }
+  const bool tree =
+      options.broad_phase == BroadPhaseMethod::automatic || options.broad_phase == BroadPhaseMethod::bvh;
+  if (tree && input.mesh.broad_phases) {
+    std::unique_ptr<BroadPhase> made = make_holding_tree(input, budget.stop());
+    if (!made->ready()) made.reset();
+    return made;
+  }
   return make_broad_phase(options.broad_phase, input, budget.stop());
+}
+
+// Eight a primitive are few enough beside its boxes, and more than most scenes have.
+std::size_t most_held(const MeshData& mesh, const Options& options, const Budget& budget) {
+  if (!options.hold_candidates || budget.counts_checks() || !mesh.broad_phases) return 0;
+  constexpr std::size_t kAPrimitive = 8;
+  const std::size_t primitives = std::size_t(mesh.num_vertices) + mesh.edges.size() + mesh.faces.size();
+  const auto fitting = std::size_t(options.memory_limit) / sizeof(IdPair);
+  return std::min(kAPrimitive * primitives, fitting);
 }
 
 }  // namespace
@@ -62,7 +79,7 @@ StepSetup::~StepSetup() {
 void StepSetup::widen(double by) { tree->inflation = (tree->inflation + std::max(by, 0.0)) * (1 + 0x1p-50); }
 
 StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
-                     Use use, Stats& stats, Budget& budget, double d_hat) {
+                     Use use, Stats& stats, Budget& budget, double d_hat, Looks looks) {
   const MeshData& data = mesh.data();
   motion = make_motion(data, x_t0, x_t1);
   stats.filter_counts = data.filter->counts;
@@ -80,6 +97,8 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
   const double margin = test != BoxTest::swept && widened ? reach : 0;
   whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
   tree.emplace(*whole);
+  tree->looks = looks;
+  tree->most_held = most_held(data, options, budget);
   const bool has_static = data.filter->has_static();
   const double share = has_static ? 1 : 0.5;  // static boxes are not widened by it: the others take all
   if (use != Use::contacts) rounding = rounding_of_distances(motion);

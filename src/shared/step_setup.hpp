@@ -44,9 +44,10 @@ struct StepSetup {
 
   // Sets all this up and fills the statistics that are known before any pair is. No broad phase is made where
   // the budget is spent. With d_hat > 0, boxes reach as far as pairs of a distance set of d_hat, or of
-  // `reach` if that is more, can be apart, with positions rounded to doubles.
+  // `reach` if that is more, can be apart, with positions rounded to doubles. `looks` says what
+  // will be done with the pairs.
   StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options, Use use,
-            Stats& stats, Budget& budget, double d_hat = 0);
+            Stats& stats, Budget& budget, double d_hat = 0, Looks looks = Looks::at_all);
   ~StepSetup();
 
   // Leaves the broad phase to the next call on the mesh.

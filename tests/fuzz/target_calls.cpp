@@ -27,9 +27,11 @@ class Session {
   std::string run() {
     for (int call = 0; call < kMostCalls && bytes_.left() > 0 && broken_.empty(); ++call) {
       int what = 0;
-      bytes_.whole(what, 0, 20);
+      bytes_.whole(what, 0, 23);
       trail_ += " " + std::to_string(what);
-      if (what < 10)
+      if (what > 20)
+        nudge(), ask(what - 21);  // as a solver asks again
+      else if (what < 10)
         ask(what);
       else
         change(what);
@@ -175,6 +177,22 @@ class Session {
     const double by = input_.x_t0(w, axis);
     for (int i = 0; i < input_.vertices; ++i)
       if (v == i || v == input_.vertices) input_.x_t0(i, axis) += by, input_.x_t1(i, axis) += by;
+    hold_statics(input_);
+  }
+
+  // Coordinates change a little, all of them or one vertex's, at both ends or at the second.
+  void nudge() {
+    if (input_.vertices == 0) return;
+    int v = 0, binary = 0;
+    bool both = false;
+    bytes_.whole(v, 0, 2 * input_.vertices), bytes_.whole(binary, -52, -4), bytes_.flag(both);
+    for (int i = 0; i < input_.vertices; ++i)
+      for (int a = 0; a < 3; ++a) {
+        if (v < input_.vertices && v != i) continue;
+        const double by = std::ldexp((i + a) % 3 - 1, binary);
+        input_.x_t1(i, a) += by * std::fabs(input_.x_t1(i, a));
+        if (both) input_.x_t0(i, a) += by * std::fabs(input_.x_t0(i, a));
+      }
     hold_statics(input_);
   }
 

@@ -43,7 +43,7 @@ options = st.fixed_dictionaries({}, optional={
     "norm": st.sampled_from(["euclidean", "maximum", "x", 1, onset_ccd.Norm.maximum]), "max_checks": st.integers(),
     "window": st.floats(), "check_limit": st.integers(), "memory_limit": st.integers(), "time_limit": st.floats(max_value=0.2),
     "threads": st.sampled_from([0, 1, 2, -1, "2"]), "exactness": st.sampled_from(["exact", "certify", "conservative", "", None]),
-    "touching_may_pass_through": st.one_of(st.booleans(), st.integers()), "gap_share": st.floats(), "d_hat": st.one_of(st.none(), st.floats()),
+    "hold_candidates": st.booleans(), "touching_may_pass_through": st.one_of(st.booleans(), st.integers()), "gap_share": st.floats(), "d_hat": st.one_of(st.none(), st.floats()),
     "progress": st.sampled_from([None, 3, lambda share: True, lambda share: share < 0.5]), "other": st.none()})
 
 

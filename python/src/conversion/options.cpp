@@ -129,6 +129,7 @@ const std::unordered_map<std::string, Setter>& setters() {
       {"threads", plain(&O::threads)},
       {"exactness", enumerated(&O::exactness)},
       {"touching_may_pass_through", plain(&O::touching_may_pass_through)},
+      {"hold_candidates", plain(&O::hold_candidates)},
       {"broad_phase", enumerated(&O::broad_phase)},
       {"narrow_phase", enumerated(&O::narrow_phase)},
       {"instruction_set", enumerated(&O::instruction_set)},

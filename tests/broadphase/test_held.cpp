@@ -1,0 +1,180 @@
+// A tree that holds pairs from call to call finds what brute force finds, whatever came before.
+#include <cmath>
+#include <onset/mesh.hpp>
+#include <string>
+
+#include "broadphase/held/held_candidates.hpp"
+#include "broadphase/held/holding_tree.hpp"
+#include "tests/broadphase/candidates.hpp"
+#include "tests/broadphase/soups.hpp"
+#include "tests/catch.hpp"
+#include "tests/fuzz.hpp"
+
+using namespace onset;
+using namespace onset::tests;
+using scenes::Random;
+
+namespace {
+
+constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge};
+constexpr std::size_t kMany = std::size_t(1) << 40;
+
+struct Moving {
+  Soup soup;
+  Mesh mesh;
+  std::vector<bool> is_static;
+
+  explicit Moving(const Soup& s, Random& random, bool with_static) : soup(s), mesh(make(s)) {
+    if (!with_static) return;
+    CollisionRules rules;
+    rules.static_vertices.resize(std::size_t(mesh.num_vertices()));
+    for (std::size_t v = 0; v < rules.static_vertices.size(); v += 3) {  // a triangle each
+      const bool still = scenes::integer(random, 0, 2) == 0;
+      for (std::size_t k = v; k < v + 3 && k < rules.static_vertices.size(); ++k)
+        rules.static_vertices[k] = still;
+    }
+    is_static = rules.static_vertices;
+    mesh.set_rules(rules);
+    stand();
+  }
+  static Mesh make(const Soup& s) {
+    Eigen::MatrixXi edges(s.mesh.edges.size(), 2), faces(s.mesh.faces.size(), 3);
+    for (Eigen::Index i = 0; i < edges.rows(); ++i)
+      for (int k = 0; k < 2; ++k) edges(i, k) = s.mesh.edges[std::size_t(i)][std::size_t(k)];
+    for (Eigen::Index i = 0; i < faces.rows(); ++i)
+      for (int k = 0; k < 3; ++k) faces(i, k) = s.mesh.faces[std::size_t(i)][std::size_t(k)];
+    return Mesh(s.mesh.num_vertices, complete_edges(edges, faces), faces);
+  }
+  void stand() {
+    for (std::size_t i = 0; i < soup.x_t0.size(); ++i)
+      if (!is_static.empty() && is_static[i / 3]) soup.x_t1[i] = soup.x_t0[i];
+  }
+  // Moves every vertex that may move by up to `by`, often by exactly that.
+  void jitter(double by, Random& random) {
+    for (std::vector<double>* x : {&soup.x_t0, &soup.x_t1})
+      for (std::size_t i = 0; i < x->size(); ++i) {
+        if (!is_static.empty() && is_static[i / 3]) continue;
+        const int way = scenes::integer(random, 0, 3);
+        (*x)[i] += way == 0 ? by : way == 1 ? -by : scenes::uniform(random, -by, by);
+      }
+  }
+  Motion motion() const {
+    return make_motion(mesh.data(), {soup.x_t0.data(), soup.mesh.num_vertices},
+                       {soup.x_t1.data(), soup.mesh.num_vertices});
+  }
+};
+
+void check(const BroadPhase& held, const BroadPhaseInput& input) {
+  BroadPhaseInput plain = input;
+  const auto brute = make_broad_phase(BroadPhaseMethod::brute, plain);
+  for (const PairKind kind : kKinds) CHECK((candidates(held, kind) == candidates(*brute, kind)));
+}
+
+// The usual size of an edge along an axis.
+double edge_of(const Soup& soup) {
+  double sum = 0;
+  for (const auto& e : soup.mesh.edges)
+    sum += std::fabs(soup.x_t0[3 * std::size_t(e[0])] - soup.x_t0[3 * std::size_t(e[1])]);
+  return sum / double(std::max<std::size_t>(1, soup.mesh.edges.size()));
+}
+
+int sequence(Moving& scene, InstructionSet instruction_set, BoxTest test, Random& random) {
+  const double edge = edge_of(scene.soup), inflation = scenes::integer(random, 0, 2) * 0.02 * edge;
+  const double step = edge * std::ldexp(1.0, -scenes::integer(random, 6, 40)) * scenes::integer(random, 0, 3);
+  std::unique_ptr<BroadPhase> tree;
+  int held = 0;
+  std::vector<Motion> motions;
+  motions.reserve(64);
+  for (int call = 0; call < 14; ++call) {
+    scene.jitter(call == 7 ? edge : step, random);
+    const Motion& motion = motions.emplace_back(scene.motion());
+    REQUIRE(motion.status == Outcome::free);
+    BroadPhaseInput input{scene.mesh.data(), motion};
+    input.instruction_set = instruction_set;
+    input.test = scenes::integer(random, 0, 9) == 0 ? BoxTest(scenes::integer(random, 0, 2)) : test;
+    input.inflation = inflation * (1 + scenes::integer(random, 0, 2) * 1e-9);
+    input.static_inflation = scene.is_static.empty() ? -1 : 0.5 * inflation;
+    input.looks = Looks::at_all;
+    input.most_held = kMany;
+    if (!tree)
+      tree = make_holding_tree(input, {});
+    else
+      tree->refit(input, {});
+    INFO(scene.soup.name << ", call " << call << ", " << tree->name());
+    held += tree->name() == std::string("held");
+    check(*tree, input);
+    if (scenes::integer(random, 0, 3) > 0) continue;
+    BroadPhaseInput part = input;
+    part.t_max = scenes::uniform(random, 0, 1);
+    part.test = BoxTest::both_ends;
+    tree->refit(part, {});
+    check(*tree, part);
+  }
+  return held;
+}
+
+}  // namespace
+
+TEST_CASE("held pairs are those of brute force, in sequences of calls", "[property]") {
+  int held = 0, calls = 0;
+  for (int round = 0; round < fuzz(3); ++round)
+    for (const Soup& soup : hard_soups())
+      for (const bool with_static : {false, true})
+        for (const BoxTest test : {BoxTest::both_ends, BoxTest::moving})
+          for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::avx2}) {
+            if (set == InstructionSet::avx2 && !has_avx2()) continue;
+            Random random(std::uint64_t(1000 * round + calls));
+            Moving scene(soup, random, with_static);
+            held += sequence(scene, set, test, random);
+            calls += 14;
+          }
+  INFO(held << " of " << calls);
+  CHECK(3 * held > calls);
+}
+
+TEST_CASE("blocks and counts of held pairs are those of the tree", "[determinism]") {
+  Random random(5);
+  Moving scene(scattered("many", 2000, 0.05, 0.05, random), random, false);
+  const Motion motion = scene.motion();
+  BroadPhaseInput input{scene.mesh.data(), motion};
+  input.looks = Looks::at_all;
+  input.most_held = kMany;
+  const auto tree = make_holding_tree(input, {});
+  std::vector<IdPairs> blocks;
+  const PairKind kind = PairKind::edge_edge;
+  for (std::size_t b = 0; b < tree->blocks(kind); ++b)
+    blocks.push_back(sorted(emitted(*tree, kind, b, b + 1)));
+  tree->refit(input, {});
+  REQUIRE(tree->name() == std::string("held"));
+  REQUIRE(tree->blocks(kind) == blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    CHECK((sorted(emitted(*tree, kind, b, b + 1)) == blocks[b]));
+}
+
+TEST_CASE("nothing is held where a call says so, pairs are too many, or positions change much", "[unit]") {
+  Random random(6);
+  const auto uses_held = [&](double step, std::size_t most, Looks looks) {
+    Moving scene(scattered("some", 300, 0.1, 0.1, random), random, false);
+    std::vector<Motion> motions(3);
+    std::unique_ptr<BroadPhase> tree;
+    for (Motion& motion : motions) {
+      scene.jitter(step, random);
+      motion = scene.motion();
+      BroadPhaseInput input{scene.mesh.data(), motion};
+      input.looks = looks;
+      input.most_held = most;
+      if (tree)
+        tree->refit(input, {});
+      else
+        tree = make_holding_tree(input, {});
+      check(*tree, input);
+    }
+    return tree->name() == std::string("held");
+  };
+  CHECK(uses_held(1e-5, kMany, Looks::at_all));
+  CHECK(uses_held(1e-5, kMany, Looks::at_earliest));
+  CHECK_FALSE(uses_held(1e-5, kMany, Looks::at_any));
+  CHECK_FALSE(uses_held(1e-5, 10, Looks::at_all));
+  CHECK_FALSE(uses_held(1e-5, 0, Looks::at_all));
+  CHECK_FALSE(uses_held(0.1, kMany, Looks::at_all));
+}
