@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "onset/bench/loop_bench.hpp"
 #include "onset/bench/scene_bench.hpp"
 #include "onset/results/outputs.hpp"
 
@@ -14,6 +16,7 @@ struct NamedCost {
   std::string name;
   std::ptrdiff_t vertices, edges, faces;
   SceneCost cost;
+  std::optional<LoopCost> loop;
 
   std::ptrdiff_t primitives() const { return vertices + edges + faces; }
 };

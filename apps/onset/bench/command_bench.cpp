@@ -6,6 +6,7 @@
 #include "files/error.hpp"
 #include "onset/bench/bench_report.hpp"
 #include "onset/bench/generated.hpp"
+#include "onset/bench/loop_bench.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/bodies.hpp"
 #include "onset/command_line/commands.hpp"
@@ -21,6 +22,8 @@ struct Inputs : Arguments {
   int repeats = 5, refine = 0;
   bool weld = false;
   std::vector<std::string> planes;
+  LoopSettings loop{0, 1, 0.005, 0};
+  int pause_mebibytes = 0;
 };
 
 Faces faces_of(const onset::Mesh& mesh) {
@@ -49,9 +52,16 @@ Scene read_refined(const Inputs& inputs, int times) {
   return to_scene(refined(std::move(frames), times));
 }
 
-NamedCost bench(const std::string& name, const Scene& scene, const onset::Options& options, int repeats) {
-  return {name, scene.mesh.num_vertices(), scene.mesh.num_edges(), scene.mesh.num_faces(),
-          bench_scene(scene, options, repeats)};
+NamedCost bench(const std::string& name, const Scene& scene, const onset::Options& options,
+                const Inputs& inputs) {
+  NamedCost cost{name,
+                 scene.mesh.num_vertices(),
+                 scene.mesh.num_edges(),
+                 scene.mesh.num_faces(),
+                 bench_scene(scene, options, inputs.repeats),
+                 {}};
+  if (inputs.loop.calls > 0) cost.loop = bench_loop(scene, options, inputs.loop);
+  return cost;
 }
 
 // The scenes one after another, each as it is and then refined; only one is in memory at a time.
@@ -67,8 +77,8 @@ std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& opt
         rules.planes = planes;
         scene.mesh.set_rules(rules);
       }
-      costs.push_back(bench(times ? format("%s, refined %d times", name.c_str(), times) : name, scene,
-                            options, inputs.repeats));
+      costs.push_back(
+          bench(times ? format("%s, refined %d times", name.c_str(), times) : name, scene, options, inputs));
     }
   };
   if (!inputs.a.empty())
@@ -98,6 +108,9 @@ void run_bench(const Inputs& inputs) {
   for (const NamedCost& cost : costs) {
     json["scenes"].push_back(cost_json(cost));
     text += describe(cost, inputs.repeats);
+    if (!cost.loop) continue;
+    json["scenes"].back()["loop"] = loop_json(*cost.loop, inputs.loop);
+    text += describe(*cost.loop, inputs.loop);
   }
   outputs.finish(json, costs.size() > 1 ? text + describe_curve(costs) : text);
 }
@@ -121,10 +134,28 @@ void add_bench(CLI::App& app, Run& run) {
   add_whole(*command, "--repeats", inputs->repeats, "COUNT",
             "Runs of each call, after one to warm up; 0: times that one, for scenes that take long [5]", 0,
             1000);
+  add_whole(*command, "--loop", inputs->loop.calls, "COUNT",
+            "Also so many calls as a Newton solver makes them, on positions that change a little each time, "
+            "with and "
+            "without pairs held from call to call; 0: none [0]",
+            0, 100000);
+  command->add_option("--motion", inputs->loop.motion, "Of --loop: the share of the motion from A to B [1]")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--change", inputs->loop.change,
+                   "Of --loop: how far coordinates change from call to call, in usual edges [0.005]")
+      ->type_name("EDGES")
+      ->check(CLI::Range(0.0, 1.0));
+  add_whole(*command, "--pause", inputs->pause_mebibytes, "MIB",
+            "Of --loop: memory that is touched between calls, so that no cache is warm [0]", 0, 4096);
   add_weld(*command, inputs->weld);
   add_planes(*command, inputs->planes);
   add_common_options(*command, *inputs, "one row a scene, its size and the cost of the active set");
-  command->callback([&run, inputs] { run = [inputs] { run_bench(*inputs); }; });
+  command->callback([&run, inputs] {
+    inputs->loop.pause_bytes = std::int64_t(inputs->pause_mebibytes) << 20;
+    run = [inputs] { run_bench(*inputs); };
+  });
 }
 
 }  // namespace app

@@ -29,7 +29,8 @@ struct SceneCost {
 };
 
 // Runs each call once, for its memory and to warm up, then all of them in turn `repeats` times; 0: the first
-// runs are those timed. Throws std::runtime_error where two runs of the active set differ.
+// runs are those timed. No pairs are held between calls. Throws std::runtime_error where two runs of the
+// active set differ.
 SceneCost bench_scene(const Scene& scene, const onset::Options& options, int repeats);
 
 // FNV-1a over kind, a, b, the bits of toi and status, row after row: the same on every machine of the same
