@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/simd/rows.hpp"
 #include "broadphase/motion_box.hpp"
+#include "scene/motion/static_motion.hpp"
 #include "scene/primitive_filter.hpp"
 
 namespace onset {
@@ -18,13 +19,18 @@ namespace {
 constexpr std::size_t kGrain = 4096;
 constexpr std::size_t kBlocksAChunk = 16;
 
-// Of a static mesh those that are not, else all.
-std::size_t count_free(const MeshData& mesh) {
-  return mesh.filter->free_ids.empty() ? std::size_t(mesh.num_vertices) : mesh.filter->free_ids.size();
+// All vertices, but for the static ones where static_part says that they are where they were. It is null
+// where no static primitive takes part; static vertices of others may then be elsewhere in the next call.
+const std::vector<int>* listed(const BroadPhaseInput& input) {
+  const std::vector<int>& free_ids = input.mesh.filter->free_ids;
+  return input.motion.static_part && !free_ids.empty() ? &free_ids : nullptr;
 }
-const double* free_row(const BroadPhaseInput& input, std::size_t i) {
-  const std::vector<int>& ids = input.mesh.filter->free_ids;
-  return input.motion.t0(ids.empty() ? int(i) : ids[i]);
+std::size_t count_rows(const BroadPhaseInput& input) {
+  const std::vector<int>* ids = listed(input);
+  return ids ? ids->size() : std::size_t(input.mesh.num_vertices);
+}
+const double* row(const BroadPhaseInput& input, const std::vector<int>* ids, std::size_t i) {
+  return input.motion.t0(ids ? (*ids)[i] : int(i));
 }
 
 // The largest change of a coordinate, and the largest magnitude of the new one.
@@ -73,14 +79,15 @@ void test_pairs(const HeldArguments& arguments, InstructionSet instruction_set) 
 
 HeldPositions::HeldPositions(const BroadPhaseInput& input)
     : axes(input.motion.axes),
-      rows(count_free(input.mesh) * kMotionStride),
+      rows(count_rows(input) * kMotionStride),
       static_part(input.motion.static_part) {
+  const std::vector<int>* ids = listed(input);
   const Change all = parallel_reduce(
       rows.size() / kMotionStride, kGrain, Change{},
       [&](std::size_t first, std::size_t last) {
         D4 most = D4::all(0);
         for (std::size_t i = first; i < last; ++i) {
-          const double* x = free_row(input, i);
+          const double* x = row(input, ids, i);
           const D4 t0 = D4::load(x), t1 = D4::load(x + 4);
           t0.store(rows.data() + i * kMotionStride), t1.store(rows.data() + i * kMotionStride + 4);
           most = max(abs(t1), max(abs(t0), most));
@@ -93,15 +100,16 @@ HeldPositions::HeldPositions(const BroadPhaseInput& input)
 
 double HeldPositions::moved(const BroadPhaseInput& input, double& magnitude) const {
   magnitude = INFINITY;
-  if (axes != input.motion.axes || rows.size() != count_free(input.mesh) * kMotionStride ||
+  if (axes != input.motion.axes || rows.size() != count_rows(input) * kMotionStride ||
       static_part != input.motion.static_part)
     return INFINITY;
+  const std::vector<int>* ids = listed(input);
   const Change all = parallel_reduce(
       rows.size() / kMotionStride, kGrain, Change{},
       [&](std::size_t first, std::size_t last) {
         D4 most = D4::all(0), change = most;
         for (std::size_t i = first; i < last; ++i) {
-          const double *x = free_row(input, i), *then = rows.data() + i * kMotionStride;
+          const double *x = row(input, ids, i), *then = rows.data() + i * kMotionStride;
           const D4 t0 = D4::load(x), t1 = D4::load(x + 4);
           change = max(abs(t1 - D4::load(then + 4)), max(abs(t0 - D4::load(then)), change));
           most = max(abs(t1), max(abs(t0), most));
@@ -110,6 +118,8 @@ double HeldPositions::moved(const BroadPhaseInput& input, double& magnitude) con
       },
       larger);
   magnitude = std::max(largest, all.magnitude);
+  for (std::size_t a = 0; static_part && a < 3; ++a)
+    magnitude = std::max({magnitude, std::fabs(static_part->lo[a]), std::fabs(static_part->hi[a])});
   return all.moved * (1 + 0x1p-50);  // differences were rounded
 }
 
@@ -146,9 +156,16 @@ bool HeldCandidates::fill(const BroadPhase& tree, const BroadPhaseInput& input, 
       return f.stop.requested() || f.room.load(std::memory_order_relaxed) == 0;
     }
   } filling{stop, {most}};
-  const auto append = [](void* context, const IdPair* pairs, std::size_t count) {
-    auto& to = *static_cast<std::vector<IdPair>*>(context);
-    to.insert(to.end(), pairs, pairs + count);
+  struct Found {
+    Filling& filling;
+    std::vector<IdPair>& pairs;
+    static void append(void* context, const IdPair* pairs, std::size_t count) {
+      Found& found = *static_cast<Found*>(context);
+      std::size_t room = found.filling.room.load(std::memory_order_relaxed);
+      while (!found.filling.room.compare_exchange_weak(room, room - std::min(room, count))) {
+      }
+      if (room > count) found.pairs.insert(found.pairs.end(), pairs, pairs + count);
+    }
   };
   const auto classify = [&](std::size_t block, IdPair* first, IdPair* last) {
     if (first == last) return;
@@ -164,12 +181,10 @@ bool HeldCandidates::fill(const BroadPhase& tree, const BroadPhaseInput& input, 
       const std::size_t last = std::min(blocks, (chunk + 1) * kBlocksAChunk);
       for (std::size_t block = chunk * kBlocksAChunk; block < last && !Filling::asked(&filling); ++block) {
         const std::size_t before = mine.size();
-        tree.traverse(kind, block, block + 1, {&mine, append, {&filling, &Filling::asked}});
+        Found to{filling, mine};
+        tree.traverse(kind, block, block + 1, {&to, &Found::append, {&filling, &Filling::asked}});
         if (has_static) classify(block, mine.data() + before, mine.data() + mine.size());
-        const std::size_t count = list.ends[block] = mine.size() - before;
-        std::size_t room = filling.room.load(std::memory_order_relaxed);
-        while (!filling.room.compare_exchange_weak(room, room - std::min(room, count))) {
-        }
+        list.ends[block] = mine.size() - before;
       }
     }
   });

@@ -14,7 +14,7 @@
 
 namespace onset {
 
-// The positions that pairs were found from, at both ends, of the vertices that may move.
+// The positions that pairs were found from, at both ends, of all vertices that static_part does not hold.
 struct HeldPositions {
   std::array<int, 3> axes{};
   AlignedArray<double> rows;
@@ -24,7 +24,7 @@ struct HeldPositions {
 
   HeldPositions() = default;
   explicit HeldPositions(const BroadPhaseInput& input);
-  // Returns how far a coordinate of a vertex that may move is at most from where it was, at either end:
+  // Returns how far a coordinate of one of them is at most from where it was, at either end:
   // infinite where that cannot be said. Sets `magnitude` to the largest magnitude of one, then or now.
   double moved(const BroadPhaseInput& input, double& magnitude) const;
 };

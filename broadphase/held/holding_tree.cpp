@@ -19,6 +19,7 @@ constexpr double kMostSlack = 0.05;
 constexpr std::size_t kMostHeldACandidate = 4, kFew = 4096;
 // After pairs were held that served no call, so many times as many calls pass before pairs are held again.
 constexpr int kLongestPause = 64;
+constexpr int kMostServed = 1 << 20;  // counted
 
 // A median of some edges, in the maximum norm, at the start.
 double usual_edge(const BroadPhaseInput& input) {
@@ -53,7 +54,7 @@ class HoldingTree final : public BroadPhase {
     double magnitude = 0;
     const double moved = eligible(input) ? positions_.moved(input, magnitude) : INFINITY;
     if (held_.cover(input, moved, magnitude)) {
-      served_ += input.t_max == 1;
+      if (input.t_max == 1) served_ = std::min(served_ + 1, kMostServed);
       return use_held(input, magnitude, stop);
     }
     if (input.t_max != 1) {  // of the call before
@@ -140,11 +141,12 @@ class HoldingTree final : public BroadPhase {
       const double seen = double(seen_pairs_) / double(seen_blocks_) * double(blocks);
       most = std::min(most, std::size_t(kMostHeldACandidate * seen) + kFew);
     }
+    HeldPositions from(input);
     if (!held_.take(*tree_, wide, most, stop)) {
       pause_ = pause_length_ = std::min(2 * pause_length_, kLongestPause);
       return false;
     }
-    positions_ = HeldPositions(input);
+    positions_ = std::move(from);
     served_ = 0;
     if (input.looks == Looks::at_earliest) ended_early_ = false;
     return true;
@@ -156,7 +158,7 @@ class HoldingTree final : public BroadPhase {
   }
   void refit_tree(const BroadPhaseInput& input, const Stop& stop) {
     tree_->refit(input, stop);
-    made_static_ = tree_->made_static_boxes();
+    made_static_ |= tree_->made_static_boxes();
   }
 
   std::unique_ptr<BroadPhase> tree_;
