@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/pairs/whole_scene.hpp"
+
 namespace onset {
 
 double Extents::largest() const {
@@ -32,11 +34,19 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
     const int v = filter.all ? int(i) : filter.moving_vertices[i];
     for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], std::fabs(m.t1(v)[a] - m.t0(v)[a]));
   }
+  bool has_faces = !mesh.faces.empty(), has_edges = !mesh.edges.empty();
+  if (const WholeScene* whole = mesh.whole.get()) {
+    has_faces = whole->has_faces, has_edges = whole->has_edges;
+    for (std::size_t a = 0; a < 3; ++a) {
+      edge[a] = std::max(edge[a], whole->widest_edge[a]), face[a] = std::max(face[a], whole->widest_face[a]);
+      moved[a] = std::max(moved[a], whole->moved[a]);
+    }
+  }
   for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor 1 + 4u
-    if (!mesh.faces.empty()) r.vertex_face[a] = (moved[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
+    if (has_faces) r.vertex_face[a] = (moved[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
     if (mesh.dimension == 2)
       r.vertex_edge[a] = (moved[a] * (1 + 0x1p-52) + edge[a] + gap) * (1 + 0x1p-51);
-    else if (!mesh.edges.empty())
+    else if (has_edges)
       r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);
   }
   return r;

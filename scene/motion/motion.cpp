@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "scene/motion/canonical_axes.hpp"
+#include "scene/pairs/whole_scene.hpp"
 #include "scene/static_cache.hpp"
 
 namespace onset {
@@ -52,7 +53,9 @@ void store_permuted(Motion& m) {
   });
 }
 
-Outcome classify(const double* x) {
+}  // namespace
+
+Outcome outcome_of_position(const double* x) {
   Outcome result = Outcome::free;
   for (int a = 0; a < 3; ++a) {
     if (!std::isfinite(x[a])) return Outcome::non_finite;
@@ -61,10 +64,12 @@ Outcome classify(const double* x) {
   return result;
 }
 
+namespace {
+
 void find_bad_vertex(Motion& m) {
   for (int v = 0; v < m.num_vertices && m.status == Outcome::free; ++v)
     for (const double* x : {m.t0(v), m.t1(v)})
-      if (const Outcome o = classify(x); o != Outcome::free && m.status == Outcome::free)
+      if (const Outcome o = outcome_of_position(x); o != Outcome::free && m.status == Outcome::free)
         m.status = o, m.bad_vertex = v;
 }
 
@@ -84,6 +89,10 @@ bool axes_around(const MeshData& mesh, const StaticMotion& still, const Position
     width[a] = hi - lo;
   }
   if (mesh.dimension == 2) width[2] = -1;
+  if (mesh.whole) {
+    axes = mesh.whole->axes;
+    return true;
+  }
   axes = widest_first(width, int(x_t0.rows()),
                       [&](int v, int end, int a) { return end == 0 ? x_t0(v, a) : x_t1(v, a); });
   return true;
@@ -137,8 +146,10 @@ Positions in_space(const MeshData& mesh, const char* name, const Positions& x) {
 Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
   check_rows(mesh, "x_t0", x_t0);
   check_rows(mesh, "x_t1", x_t1);
-  if (mesh.dimension == 2) return make_motion_of(mesh, x_t0.in_space(), x_t1.in_space());
-  return make_motion_of(mesh, x_t0, x_t1);
+  Motion m = mesh.dimension == 2 ? make_motion_of(mesh, x_t0.in_space(), x_t1.in_space())
+                                 : make_motion_of(mesh, x_t0, x_t1);
+  if (mesh.whole) m.largest_elsewhere = mesh.whole->largest_coordinate;
+  return m;
 }
 
 namespace {
@@ -149,7 +160,8 @@ Motion make_motion_of(const MeshData& mesh, const Positions& x_t0, const Positio
   auto still = cached ? mesh.static_cache->motion.get() : nullptr;
   if (still)
     if (Motion m = motion_around(mesh, still, x_t0, x_t1); m.static_part) return m;
-  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1, mesh.dimension == 2);
+  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1, mesh.dimension == 2,
+                         mesh.whole ? &mesh.whole->axes : nullptr);
   if (m.status != Outcome::free) return m;
   bool same = still != nullptr;
   for (std::size_t k = 0; k < mesh.filter->static_ids.size(); ++k) {
@@ -172,7 +184,8 @@ Motion make_motion_of(const MeshData& mesh, const Positions& x_t0, const Positio
 
 }  // namespace
 
-Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane) {
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane,
+                   const std::array<int, 3>* axes) {
   check_shape("x_t0", num_vertices, x_t0);
   check_shape("x_t1", num_vertices, x_t1);
   Motion m;
@@ -186,14 +199,14 @@ Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t
       x[3] = x[7] = 0;
     }
   });
-  finish_motion(m);
+  finish_motion(m, axes);
   return m;
 }
 
-void finish_motion(Motion& m) {
+void finish_motion(Motion& m, const std::array<int, 3>* axes) {
   find_bad_vertex(m);
   if (m.status != Outcome::free || m.num_vertices == 0) return;
-  m.axes = canonical_axes(m);
+  m.axes = axes != nullptr ? *axes : canonical_axes(m);
   store_permuted(m);
 }
 
