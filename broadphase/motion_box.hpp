@@ -35,5 +35,14 @@ MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind, const Sto
 bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b);
 // Does the same for two primitives, by input.test.
 bool boxes_overlap(const BroadPhaseInput& input, PairKind kind, IdPair pair);
+// The same for kernels, which know no more of it than a pointer.
+struct OverlapDecision {
+  const BroadPhaseInput& input;
+  PairKind kind;
+  static bool meet(const void* context, int a, int b) {
+    const OverlapDecision& d = *static_cast<const OverlapDecision*>(context);
+    return boxes_overlap(d.input, d.kind, {a, b});
+  }
+};
 
 }  // namespace onset

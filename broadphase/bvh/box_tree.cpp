@@ -141,6 +141,19 @@ bool BoxTree::apart(const BoxTree& other, bool motion) const {
   return false;
 }
 
+Sides sides_of(PairKind kind) {
+  switch (kind) {
+    case PairKind::vertex_face:
+      return Sides::vertices_faces;
+    case PairKind::edge_edge:
+      return Sides::edges_edges;
+    case PairKind::vertex_edge:
+      return Sides::vertices_edges;
+    default:
+      return Sides::edges_faces;
+  }
+}
+
 const BvhKernel& bvh_kernel(InstructionSet kernel) {
   static constexpr BvhKernel scalar{bvh_scalar::fit_leaves, bvh_scalar::fit_level, bvh_scalar::write_vertices,
                                     bvh_scalar::traverse};

@@ -20,6 +20,8 @@ struct BvhKernel {
 // Returns the kernel of an instruction set, which it resolves.
 const BvhKernel& bvh_kernel(InstructionSet kernel);
 
+Sides sides_of(PairKind kind);
+
 class BoxTree {
  public:
   // Takes the primitives listed, whose vertices must all have a rank. A tree that is traversed with one of

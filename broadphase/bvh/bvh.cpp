@@ -80,35 +80,16 @@ class Bvh final : public BroadPhase {
     std::size_t end;
   };
 
-  struct Decide {
-    const BroadPhaseInput& input;
-    PairKind kind;
-    static bool meet(const void* context, int a, int b) {
-      const Decide& d = *static_cast<const Decide*>(context);
-      return boxes_overlap(d.input, d.kind, {a, b});
-    }
+  struct Decide : OverlapDecision {
     static bool excluded(const void* context, int a, int b) {
       const Decide& d = *static_cast<const Decide*>(context);
       return onset::excluded(d.input.mesh, d.kind, a, b);
     }
   };
 
-  static Sides sides_of(PairKind kind) {
-    switch (kind) {
-      case PairKind::vertex_face:
-        return Sides::vertices_faces;
-      case PairKind::edge_edge:
-        return Sides::edges_edges;
-      case PairKind::vertex_edge:
-        return Sides::vertices_edges;
-      default:
-        return Sides::edges_faces;
-    }
-  }
-
   void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
                 const PairSink& sink, TraversalMemory& memory) const {
-    const Decide decide{*input_, kind};
+    const Decide decide{{*input_, kind}};
     TraverseArguments arguments{};
     arguments.query = couple.query->view(), arguments.tree = couple.other->view();
     arguments.test = input_->test;

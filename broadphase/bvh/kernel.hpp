@@ -71,31 +71,35 @@ struct SupportArguments {
   float* records;
 };
 
-struct TraverseArguments {
-  TreeView query, tree;
+// How pairs are tested, and where those that pass go.
+struct PairTestArguments {
   BoxTest test;
   Sides sides;
+  // Bit i: equal floats on axis i need not be equal doubles.
+  int rounded_axes;
+  // Whether the boxes of both sides are BoxTree::linear.
+  bool linear;
+  // Decides pairs that float cannot.
+  bool (*meets)(const void* context, int a, int b);
+  const void* context;
+  void (*consume)(void* context, const IdPair* pairs, std::size_t count);
+  void* consume_context;
+  // As Stop::asked: null, or says whether the rest need not be looked at.
+  bool (*stop)(void* context);
+  void* stop_context;
+  TraversalMemory* memory;
+};
+
+struct TraverseArguments : PairTestArguments {
+  TreeView query, tree;
   // Whether both are one tree: each unordered pair is then found once.
   bool self;
   // Whether both trees have keys, which are then compared.
   bool keyed;
-  // Bit i: equal floats on axis i need not be equal doubles.
-  int rounded_axes;
   // Blocks at level 1 of `query`, of 64 primitives each.
   std::size_t first, last;
-  // Whether both trees are BoxTree::linear.
-  bool linear;
-  // Decides pairs that float cannot.
-  bool (*meets)(const void* context, int a, int b);
   // Decides pairs both of whose keys have kExcludedFlag.
   bool (*excluded)(const void* context, int a, int b);
-  const void* context;
-  void (*consume)(void* context, const IdPair* pairs, std::size_t count);
-  void* consume_context;
-  // As Stop::asked: null, or says whether the rest need not be traversed.
-  bool (*stop)(void* context);
-  void* stop_context;
-  TraversalMemory* memory;
 };
 
 #define ONSET_DECLARE_BVH_KERNEL(isa)                                                                \

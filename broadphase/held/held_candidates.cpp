@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "base/simd/rows.hpp"
+#include "broadphase/bvh/box_tree.hpp"
 #include "broadphase/motion_box.hpp"
 #include "scene/motion/static_motion.hpp"
 #include "scene/primitive_filter.hpp"
@@ -44,20 +44,6 @@ double largest_lane(const D4& x) {
   double lanes[4];
   x.store(lanes);
   return *std::max_element(lanes, lanes + 4);
-}
-
-struct Decide {
-  const BroadPhaseInput& input;
-  PairKind kind;
-  static bool meet(const void* context, int a, int b) {
-    const Decide& d = *static_cast<const Decide*>(context);
-    return boxes_overlap(d.input, d.kind, {a, b});
-  }
-};
-
-Sides sides_of(PairKind kind) {
-  if (kind == PairKind::vertex_face) return Sides::vertices_faces;
-  return kind == PairKind::edge_edge ? Sides::edges_edges : Sides::vertices_edges;
 }
 
 const int* vertices_of(const MeshData& mesh, Primitive kind) {
@@ -288,13 +274,13 @@ void HeldCandidates::traverse(PairKind kind, std::size_t first, std::size_t last
   const List& list = lists_[std::size_t(kind)];
   ONSET_ASSERT(last <= list.ends.size());
   const FreeList<TraversalMemory>::Loan memory(memory_);
-  const Decide decide{*input_, kind};
+  const OverlapDecision decide{*input_, kind};
   HeldArguments a{};
   a.first_vertices = vertices_of(input_->mesh, first_primitive(kind));
   a.second_vertices = vertices_of(input_->mesh, second_primitive(kind));
   a.sides = sides_of(kind), a.test = input_->test;
   a.rounded_axes = rounded_axes_, a.linear = linear_;
-  a.meets = Decide::meet, a.context = &decide;
+  a.meets = OverlapDecision::meet, a.context = &decide;
   a.consume = sink.consume, a.consume_context = sink.context;
   a.stop = sink.stop.asked, a.stop_context = sink.stop.context;
   a.memory = &*memory;

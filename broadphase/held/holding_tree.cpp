@@ -79,6 +79,7 @@ class HoldingTree final : public BroadPhase {
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
     if (uses_held_) return held_.traverse(kind, first, last, sink);
+    if (!whole_) return tree_->traverse(kind, first, last, sink);
     struct Counting {
       const PairSink& sink;
       std::size_t count;
@@ -88,7 +89,6 @@ class HoldingTree final : public BroadPhase {
         c.sink(pairs, n);
       }
     } counting{sink, 0};
-    if (!whole_) return tree_->traverse(kind, first, last, sink);
     tree_->traverse(kind, first, last, {&counting, &Counting::consume, sink.stop});
     seen_pairs_.fetch_add(counting.count, std::memory_order_relaxed);
     seen_blocks_.fetch_add(last - first, std::memory_order_relaxed);
@@ -175,7 +175,9 @@ class HoldingTree final : public BroadPhase {
 }  // namespace
 
 std::unique_ptr<BroadPhase> make_holding_tree(const BroadPhaseInput& input, const Stop& stop) {
-  return std::make_unique<HoldingTree>(input, stop);
+  std::unique_ptr<BroadPhase> made = std::make_unique<HoldingTree>(input, stop);
+  if (!made->ready()) made.reset();
+  return made;
 }
 
 }  // namespace onset

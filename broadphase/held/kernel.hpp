@@ -3,13 +3,12 @@
 
 #include <cstddef>
 
-#include "broadphase/box_test.hpp"
 #include "broadphase/bvh/kernel.hpp"
-#include "scene/pair_sink.hpp"
 
 namespace onset {
 
-struct HeldArguments {
+// `test` is never the swept one.
+struct HeldArguments : PairTestArguments {
   const IdPair* pairs;
   std::size_t count;
   // Of the vertices of the first and the second side, by id: 16 floats, as FitArguments::supports. Of two
@@ -17,19 +16,6 @@ struct HeldArguments {
   const float *first_records, *second_records;
   // The vertices of edges (two each) or faces (three each), by id; not used for vertices.
   const int *first_vertices, *second_vertices;
-  Sides sides;
-  // Both ends or moving, never swept.
-  BoxTest test;
-  // As in TraverseArguments.
-  int rounded_axes;
-  bool linear;
-  bool (*meets)(const void* context, int a, int b);
-  const void* context;
-  void (*consume)(void* context, const IdPair* pairs, std::size_t count);
-  void* consume_context;
-  bool (*stop)(void* context);
-  void* stop_context;
-  TraversalMemory* memory;
 };
 
 #define ONSET_DECLARE_HELD_KERNEL(isa)             \

@@ -47,11 +47,7 @@ std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const Broad
   }
   const bool tree =
       options.broad_phase == BroadPhaseMethod::automatic || options.broad_phase == BroadPhaseMethod::bvh;
-  if (tree && input.mesh.broad_phases) {
-    std::unique_ptr<BroadPhase> made = make_holding_tree(input, budget.stop());
-    if (!made->ready()) made.reset();
-    return made;
-  }
+  if (tree && input.mesh.broad_phases) return make_holding_tree(input, budget.stop());
   return make_broad_phase(options.broad_phase, input, budget.stop());
 }
 
