@@ -5,6 +5,7 @@ set_target_properties(onset PROPERTIES
   CXX_VISIBILITY_PRESET hidden
   VISIBILITY_INLINES_HIDDEN ON
   CXX_EXTENSIONS OFF
+  UNITY_BUILD OFF  # whatever a parent project does: files have names of their own, inside
   VERSION ${PROJECT_VERSION}
   SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # 0.x: every minor version may break the ABI
 target_compile_features(onset PUBLIC cxx_std_17)

@@ -85,8 +85,8 @@ class Documented(OutsideTest):
         self.assertIn(f"onset_DIR:PATH={self.work}/home/", (self.project / "build/CMakeCache.txt").read_text())
 
     def test_add_subdirectory(self):
-        """In a project with flags that would change the library's arithmetic: GCC fuses here."""
-        self.use("add_subdirectory", "-O1 -fexpensive-optimizations -DNDEBUG", "set(CMAKE_CXX_STANDARD 20)",
+        """In a project with flags that would change the library's arithmetic, where GCC fuses, and that joins its sources."""
+        self.use("add_subdirectory", "-O1 -fexpensive-optimizations -DNDEBUG", "set(CMAKE_CXX_STANDARD 20)\nset(CMAKE_UNITY_BUILD ON)",
                  CXXFLAGS="-O3 -march=native -ffast-math")
 
     def test_fetch_content(self):
