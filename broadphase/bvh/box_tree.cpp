@@ -1,6 +1,7 @@
 #include "broadphase/bvh/box_tree.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
@@ -20,23 +21,33 @@ bool own_supports(const BroadPhaseInput& input, Primitive kind) {
 
 }  // namespace
 
-// Unused lanes refer to the record after the last, which is kNowhere.
 BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order,
                  bool alone, const Stop& stop)
-    : kind_(kind), count_(list.count) {
-  const std::size_t each = std::size_t(vertices_each(kind_)), slots = (count_ + kBlock - 1) / kBlock * kBlock;
-  ids_ = AlignedArray<int>(slots), vertices_ = AlignedArray<int>(slots * each);
+    : kind_(kind), ids_((list.count + kBlock - 1) / kBlock * kBlock) {
   if (!order_primitives(mesh, kind, list, order, ids_.data(), stop)) return;
-  std::fill(ids_.data() + count_, ids_.data() + slots, int(count_));
+  std::fill(ids_.data() + list.count, ids_.data() + ids_.size(), -1);
+  list_vertices(mesh, order, alone, stop);
+}
+
+BoxTree::BoxTree(const MeshData& mesh, Primitive kind, AlignedArray<int> slots, const VertexOrder& order,
+                 bool alone, const Stop& stop)
+    : kind_(kind), ids_(std::move(slots)) {
+  list_vertices(mesh, order, alone, stop);
+}
+
+// Unused lanes refer to the record after the last, which is kNowhere.
+void BoxTree::list_vertices(const MeshData& mesh, const VertexOrder& order, bool alone, const Stop& stop) {
+  const std::size_t each = std::size_t(vertices_each(kind_)), slots = ids_.size();
+  vertices_ = AlignedArray<int>(slots * each);
   if (!alone) names_.resize(slots * each, -1);
   parallel_ranges(slots, kGrain, [&](std::size_t first, std::size_t last) {
     each_unless(stop, first, last, [&](std::size_t slot) {
       int* out = vertices_.data() + slot / kBlock * each * kBlock + slot % kBlock;
-      const auto vertices =
-          slot < count_ ? primitive_vertices(mesh, kind_, ids_[slot]) : std::array<int, 3>{};
+      const bool used = ids_[slot] >= 0;
+      const auto vertices = used ? primitive_vertices(mesh, kind_, ids_[slot]) : std::array<int, 3>{};
       for (std::size_t k = 0; k < each; ++k)
-        out[k * kBlock] = slot < count_ ? order.rank[std::size_t(vertices[k])] : int(order.vertex.size());
-      if (!alone && slot < count_)
+        out[k * kBlock] = used ? order.rank[std::size_t(vertices[k])] : int(order.vertex.size());
+      if (!alone && used)
         for (std::size_t k = 0; k < each; ++k)
           names_[std::size_t(out - vertices_.data()) + k * kBlock] = vertices[k];
     });
@@ -44,18 +55,23 @@ BoxTree::BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const
   if (mesh.filter->compares_keys && !stop.requested()) make_keys(mesh, stop);
 }
 
-// bodies_ has all levels one after the other (see TreeView). Unused lanes meet no group.
+// bodies_ has all levels one after the other (see TreeView). Unused lanes meet no group, and are of the body
+// of the lane before, so that they keep no block from being of one body.
 void BoxTree::make_keys(const MeshData& mesh, const Stop& stop) {
   const std::vector<PrimitiveKey>& all = mesh.filter->keys[std::size_t(kind_)];
   keys_.assign(3 * ids_.size(), 0), bodies_.assign(ids_.size(), 0);
   const auto put = [&](std::size_t slot) {
+    if (ids_[slot] < 0) {
+      if (slot % kBlock > 0) bodies_[slot] = bodies_[slot - 1];
+      return;
+    }
     const PrimitiveKey& key = all[std::size_t(ids_[slot])];
     int* row = keys_.data() + slot / kBlock * (3 * kBlock) + slot % kBlock;
     row[0] = key.flags, row[kBlock] = int(key.group), row[2 * kBlock] = int(key.mask);
     bodies_[slot] = key.body;
   };
-  if (!each_unless(stop, 0, count_, put)) return;
-  std::size_t below = 0, used = count_, levels = 1;
+  if (!each_unless(stop, 0, ids_.size(), put)) return;
+  std::size_t below = 0, used = ids_.size(), levels = 1;
   do {
     const std::size_t above = bodies_.size(), blocks = (used + kBlock - 1) / kBlock;
     bodies_.resize(above + (blocks + kBlock - 1) / kBlock * kBlock, 0);
@@ -100,18 +116,18 @@ void BoxTree::lay_out(bool motion) {
 
 void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap& map,
                   const Supports& vertices, const Stop& stop) {
-  if (count_ == 0 || stop.requested()) return;
+  if (ids_.size() == 0 || stop.requested()) return;
   const bool motion = input.test != BoxTest::swept, own = own_supports(input, kind_);
   const BvhKernel& kernel = bvh_kernel(input.instruction_set);
+  std::vector<int> used, places;
+  if (own) list_used(used, places);
   const Supports mine =
-      own ? make_supports(input, inflation, map, kind_, ids_.data(), count_, stop) : Supports{};
+      own ? make_supports(input, inflation, map, kind_, used.data(), used.size(), stop) : Supports{};
   if (stop.requested()) return;
   const Supports& supports = own ? mine : vertices;
   rounded_axes_ = supports.rounded_axes;
   lay_out(motion);
-  std::vector<int> slots(own ? ids_.size() : 0);
-  for (std::size_t slot = 0; slot < slots.size(); ++slot) slots[slot] = int(std::min(slot, count_));
-  const FitArguments fit{view_, motion, supports.records.data(), own ? slots.data() : vertices_.data(),
+  const FitArguments fit{view_, motion, supports.records.data(), own ? places.data() : vertices_.data(),
                          own ? 1 : vertices_each(kind_)};
   parallel_ranges(blocks(), kGrain, [&](std::size_t first, std::size_t last) {
     for (; first < last && !stop.requested(); first += kGrain)
@@ -125,6 +141,14 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
   for (int row = 0; linear_ && row < kRowsOf[1]; ++row) linear_ = reach(row) < FloatMap::kLargest;
 }
 
+void BoxTree::list_used(std::vector<int>& ids, std::vector<int>& places) const {
+  ids.assign(ids_.data(), ids_.data() + ids_.size());
+  ids.erase(std::remove(ids.begin(), ids.end(), -1), ids.end());
+  int place = 0;
+  for (std::size_t slot = 0; slot < ids_.size(); ++slot)
+    places.push_back(ids_[slot] >= 0 ? place++ : int(ids.size()));
+}
+
 float BoxTree::reach(int row) const {
   const float* lanes = view_.level[view_.levels - 1] + row * kBlock;
   return *std::max_element(lanes, lanes + kBlock);
@@ -132,7 +156,7 @@ float BoxTree::reach(int row) const {
 
 // A negative sum of opposite supports means apart: see broadphase/bvh/kernel.hpp.
 bool BoxTree::apart(const BoxTree& other, bool motion) const {
-  if (count_ == 0 || other.count_ == 0) return true;
+  if (ids_.size() == 0 || other.ids_.size() == 0) return true;
   for (int k = 0; k < 6; ++k) {
     const int opposite = (k + 3) % 6;
     if (reach(k) + other.reach(opposite) < 0 && (!motion || reach(6 + k) + other.reach(6 + opposite) < 0))
@@ -152,6 +176,23 @@ Sides sides_of(PairKind kind) {
     default:
       return Sides::edges_faces;
   }
+}
+
+TraverseArguments traverse_arguments(const BoxTree& query, const BoxTree& other,
+                                     const TreePairDecision& decide, const PairSink& sink) {
+  TraverseArguments arguments{};
+  arguments.query = query.view(), arguments.tree = other.view();
+  arguments.test = decide.input.test;
+  arguments.sides = sides_of(decide.kind);
+  arguments.self = &query == &other;
+  arguments.keyed = arguments.query.keys != nullptr;
+  arguments.rounded_axes = query.rounded_axes() | other.rounded_axes();
+  arguments.linear = query.linear() && other.linear();
+  arguments.meets = TreePairDecision::meet, arguments.excluded = TreePairDecision::excluded;
+  arguments.context = &decide;
+  arguments.consume = sink.consume, arguments.consume_context = sink.context;
+  arguments.stop = sink.stop.asked, arguments.stop_context = sink.stop.context;
+  return arguments;
 }
 
 const BvhKernel& bvh_kernel(InstructionSet kernel) {

@@ -29,6 +29,9 @@ class BoxTree {
   // a fit, was stopped, the tree is not to be used.
   BoxTree(const MeshData& mesh, Primitive kind, const IdList& list, const VertexOrder& order, bool alone,
           const Stop& stop = {});
+  // The same of primitives that are in order: `slots` has their ids, eight a block, and -1 in unused lanes.
+  BoxTree(const MeshData& mesh, Primitive kind, AlignedArray<int> slots, const VertexOrder& order, bool alone,
+          const Stop& stop = {});
 
   // Makes the boxes, widened by `inflation` and thickness. `vertices` are the supports by rank, widened
   // alike, which suffice where there is no thickness.
@@ -48,10 +51,12 @@ class BoxTree {
   std::size_t blocks() const { return ids_.size() / kBlock; }
   float reach(int row) const;  // a support of the union of all boxes
   void lay_out(bool motion);
+  void list_vertices(const MeshData& mesh, const VertexOrder& order, bool alone, const Stop& stop);
   void make_keys(const MeshData& mesh, const Stop& stop);
+  // Lists the ids in use, and for each slot the place of its id in that list, or its end.
+  void list_used(std::vector<int>& ids, std::vector<int>& places) const;
 
   Primitive kind_;
-  std::size_t count_;
   int rounded_axes_ = 0;
   bool linear_ = false;
   AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_ are ranks
@@ -59,5 +64,17 @@ class BoxTree {
   AlignedArray<float> boxes_;
   TreeView view_{};
 };
+
+// What kernels ask about a pair of primitives.
+struct TreePairDecision : OverlapDecision {
+  static bool excluded(const void* context, int a, int b) {
+    const TreePairDecision& d = *static_cast<const TreePairDecision*>(context);
+    return onset::excluded(d.input.mesh, d.kind, a, b);
+  }
+};
+
+// Fills in all but the range, the list and the memory. `decide` and `sink` must outlive the traversal.
+TraverseArguments traverse_arguments(const BoxTree& query, const BoxTree& other,
+                                     const TreePairDecision& decide, const PairSink& sink);
 
 }  // namespace onset

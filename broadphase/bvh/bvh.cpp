@@ -80,28 +80,11 @@ class Bvh final : public BroadPhase {
     std::size_t end;
   };
 
-  struct Decide : OverlapDecision {
-    static bool excluded(const void* context, int a, int b) {
-      const Decide& d = *static_cast<const Decide*>(context);
-      return onset::excluded(d.input.mesh, d.kind, a, b);
-    }
-  };
-
   void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
                 const PairSink& sink, TraversalMemory& memory) const {
-    const Decide decide{{*input_, kind}};
-    TraverseArguments arguments{};
-    arguments.query = couple.query->view(), arguments.tree = couple.other->view();
-    arguments.test = input_->test;
-    arguments.sides = sides_of(kind);
-    arguments.self = couple.query == couple.other;
-    arguments.keyed = arguments.query.keys != nullptr;
-    arguments.rounded_axes = couple.query->rounded_axes() | couple.other->rounded_axes();
-    arguments.linear = couple.query->linear() && couple.other->linear();
+    const TreePairDecision decide{{*input_, kind}};
+    TraverseArguments arguments = traverse_arguments(*couple.query, *couple.other, decide, sink);
     arguments.first = first, arguments.last = last;
-    arguments.meets = Decide::meet, arguments.excluded = Decide::excluded, arguments.context = &decide;
-    arguments.consume = sink.consume, arguments.consume_context = sink.context;
-    arguments.stop = sink.stop.asked, arguments.stop_context = sink.stop.context;
     arguments.memory = &memory;
     bvh_kernel(input_->instruction_set).traverse(arguments);
   }

@@ -90,6 +90,17 @@ struct PairTestArguments {
   TraversalMemory* memory;
 };
 
+// A leaf block of the query and some lanes of a block at level 1 of the other tree, which are leaf blocks,
+// too.
+struct BlockRun {
+  int query, node, lanes;
+};
+// Takes runs from whoever lists them. It returns false where the rest need not come.
+struct BlockRunSink {
+  void* context;
+  bool (*take)(void* context, const BlockRun* runs, std::size_t count);
+};
+
 struct TraverseArguments : PairTestArguments {
   TreeView query, tree;
   // Whether both are one tree: each unordered pair is then found once.
@@ -100,6 +111,10 @@ struct TraverseArguments : PairTestArguments {
   std::size_t first, last;
   // Decides pairs both of whose keys have kExcludedFlag.
   bool (*excluded)(const void* context, int a, int b);
+  // Null, or lists the pairs of leaf blocks of [first, last) that may meet, each once; the levels above 1 are
+  // then not looked at. Of one tree the query has no larger number than the others.
+  void (*list)(const void* context, const BlockRunSink& sink);
+  const void* list_context;
 };
 
 #define ONSET_DECLARE_BVH_KERNEL(isa)                                                                \

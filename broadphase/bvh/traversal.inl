@@ -38,6 +38,13 @@ class Traversal {
   static void* operator new(std::size_t, TraversalMemory* memory) { return memory; }
 
   void run() {
+    t_.list != nullptr ? t_.list(t_.list_context, {this, &Traversal::take}) : from_the_root();
+    if (stopped_) return;
+    settle_doubtful();
+    flush();
+  }
+
+  void from_the_root() {
     const int top = t_.tree.levels - 1;
     for (std::size_t q = t_.first; q < t_.last; ++q) {
       Pairs& start = blocks_[top];
@@ -45,9 +52,22 @@ class Traversal {
       if (start.full()) empty_blocks(top);
     }
     for (int level = top; level >= 0; --level) empty_blocks(level);
-    if (stopped_) return;
-    settle_doubtful();
-    flush();
+  }
+
+  static bool take(void* context, const BlockRun* runs, std::size_t count) {
+    Traversal& t = *static_cast<Traversal*>(context);
+    for (std::size_t i = 0; i < count; ++i) t.take(runs[i]);
+    t.empty_blocks(0);
+    return !t.stopped_;
+  }
+
+  void take(const BlockRun& run) {
+    Pairs& to = blocks_[0];
+    const int q = run.query, n = run.node;
+    int mask = meeting(box_of(t_.query, 0, unsigned(q)), 1, block_of(t_.tree, 1, unsigned(n))) & run.lanes;
+    if (kKeyed) mask &= ~within(body_of(t_.query, 0, unsigned(q)), t_.tree, 1, unsigned(n));
+    to.add(I8::all(q), compress(I8::lane_numbers() + I8::all(n * kBlock), mask), mask);
+    if (to.full()) empty_blocks(0);
   }
 
   static constexpr bool kBothEnds = kTest != BoxTest::swept, kMoving = kTest == BoxTest::moving;

@@ -43,8 +43,11 @@ struct Method {
 // All but brute force.
 inline std::vector<Method> methods() {
   std::vector<Method> all{{"bvh scalar", BroadPhaseMethod::bvh, InstructionSet::scalar},
-                          {"hash", BroadPhaseMethod::hash, InstructionSet::scalar}};
-  if (has_avx2()) all.push_back({"bvh avx2", BroadPhaseMethod::bvh, InstructionSet::avx2});
+                          {"hash scalar", BroadPhaseMethod::hash, InstructionSet::scalar}};
+  if (has_avx2()) {
+    all.push_back({"bvh avx2", BroadPhaseMethod::bvh, InstructionSet::avx2});
+    all.push_back({"hash avx2", BroadPhaseMethod::hash, InstructionSet::avx2});
+  }
   return all;
 }
 

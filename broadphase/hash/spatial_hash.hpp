@@ -1,4 +1,4 @@
-// The broad phase by a sorted uniform grid, for scenes whose primitives are of similar size.
+// The broad phase by cells of grids, each primitive in one cell of the grid that suits its size.
 #pragma once
 
 #include "broadphase/broad_phase.hpp"
