@@ -1,10 +1,10 @@
-// The broad phase against those of FCL and Embree, where these are found: from positions to pairs, one
-// thread, in turn.
+// The tree against the hash, and against the broad phases of FCL and Embree, where these are found: from
+// positions to pairs, one thread, in turn.
 //
 //   onset_broad_phase_peers A B [REPEATS]
 //
-// Prints CPU times, the ratio of each round's times, and the number of pairs, which must agree with ours:
-// exit status 1 where it does not.
+// Prints CPU times, the ratio of each round's times, and the number of pairs, which must agree with the
+// tree's: exit status 1 where it does not.
 #include <tbb/global_control.h>
 
 #include <cstdio>
@@ -25,12 +25,15 @@ struct Contestant {
 };
 
 std::vector<Contestant> contestants(const app::Scene& scene) {
-  const auto ours = std::make_shared<app::StoredPairs>(scene.mesh);
   std::vector<Contestant> all;
-  all.push_back({{"onset", [ours](const auto& x_t0, const auto& x_t1) { return ours->find(x_t0, x_t1, 1); }},
-                 {},
-                 {},
-                 {}});
+  for (const auto& [name, method] : {std::pair{"onset", onset::BroadPhaseMethod::bvh},
+                                     std::pair{"onset, hash", onset::BroadPhaseMethod::hash}}) {
+    const auto ours = std::make_shared<app::StoredPairs>(scene.mesh, method);
+    all.push_back({{name, [ours](const auto& x_t0, const auto& x_t1) { return ours->find(x_t0, x_t1, 1); }},
+                   {},
+                   {},
+                   {}});
+  }
 #ifdef ONSET_BENCH_FCL
   all.push_back({app::fcl_peer(scene.mesh, app::Tree::built), {}, {}, {}});
   all.push_back({app::fcl_peer(scene.mesh, app::Tree::updated), {}, {}, {}});
@@ -52,18 +55,24 @@ void run_round(std::vector<Contestant>& all, const app::Scene& scene, bool warm_
   for (Contestant& c : all) c.ratio.push_back(c.seconds.back() / all[0].seconds.back());
 }
 
+// Our boxes reach a little farther, for what storing positions may change: a few pairs in a million.
+bool agree(const onset::PairCounts& theirs, const onset::PairCounts& ours) {
+  const auto few = [](std::int64_t n, std::int64_t of) { return n >= 0 && n <= of / 100000; };
+  return few(ours.vertex_face - theirs.vertex_face, ours.vertex_face) &&
+         few(ours.edge_edge - theirs.edge_edge, ours.edge_edge);
+}
+
 bool print(const std::vector<Contestant>& all) {
-  bool agree = true;
+  bool all_agree = true;
   std::printf("%-31s %26s   %22s   %9s %9s\n", "", "CPU ms [least, most]", "times onset [l, m]", "vf", "ee");
   for (const Contestant& c : all) {
     const app::Spread s = app::spread(c.seconds), r = app::spread(c.ratio);
     std::printf("%-31s %8.1f [%6.1f, %6.1f]   %6.2f [%5.2f, %5.2f]   %9lld %9lld\n", c.peer.name.c_str(),
                 1e3 * s.median, 1e3 * s.least, 1e3 * s.most, r.median, r.least, r.most,
                 static_cast<long long>(c.counts.vertex_face), static_cast<long long>(c.counts.edge_edge));
-    agree = agree && c.counts.vertex_face == all[0].counts.vertex_face &&
-            c.counts.edge_edge == all[0].counts.edge_edge;
+    all_agree = all_agree && agree(c.counts, all[0].counts);
   }
-  return agree;
+  return all_agree;
 }
 
 }  // namespace

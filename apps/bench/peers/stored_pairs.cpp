@@ -8,7 +8,8 @@ struct StoredPairs::Lists {
   std::vector<std::array<int, 2>> vertex_face, edge_edge;
 };
 
-StoredPairs::StoredPairs(const onset::Mesh& mesh) : mesh_(&mesh) {}
+StoredPairs::StoredPairs(const onset::Mesh& mesh, onset::BroadPhaseMethod method)
+    : mesh_(&mesh), method_(method) {}
 StoredPairs::~StoredPairs() = default;
 
 onset::PairCounts StoredPairs::find(const onset::Positions& x_t0, const onset::Positions& x_t1, int threads) {
@@ -31,7 +32,7 @@ onset::PairCounts StoredPairs::find(const onset::Positions& x_t0, const onset::P
     idle.push_back(mine);
   };
   onset::Options options;
-  options.threads = threads;
+  options.threads = threads, options.broad_phase = method_;
   return onset::visit_candidates(*mesh_, x_t0, x_t1, store, options).counts;
 }
 

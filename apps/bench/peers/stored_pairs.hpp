@@ -10,7 +10,8 @@ namespace app {
 
 class StoredPairs {
  public:
-  explicit StoredPairs(const onset::Mesh& mesh);
+  explicit StoredPairs(const onset::Mesh& mesh,
+                       onset::BroadPhaseMethod method = onset::BroadPhaseMethod::automatic);
   ~StoredPairs();
   StoredPairs(const StoredPairs&) = delete;
 
@@ -21,6 +22,7 @@ class StoredPairs {
  private:
   struct Lists;  // by kind
   const onset::Mesh* mesh_;
+  onset::BroadPhaseMethod method_;
   std::vector<Lists> lists_;
 };
 
