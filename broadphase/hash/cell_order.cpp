@@ -72,7 +72,7 @@ bool CellOrder::measure(const std::vector<CellBox>& cells, const Stop& stop) {
 
 // Cuts what is sorted into blocks, each within one row.
 void CellOrder::cut(const std::vector<Entry>& entries, const std::vector<CellBox>& cells, const Stop& stop) {
-  slots_.reserve(entries.size() + entries.size() / 2);
+  slots_.reserve(2 * entries.size()), blocks_.reserve(entries.size() / 4);
   const std::uint64_t x_mask = (std::uint64_t(1) << x_bits_) - 1;
   std::uint64_t row = 0;
   int widest = 0;

@@ -21,9 +21,9 @@ struct CellBox {
   int widest() const { return std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}); }
 };
 
-// A cell of level 0 is 2^kSub units wide, one of level l 2^(kSub + l). There are 2^kBits units an axis around the
-// origin; the outermost take all that lies beyond. The unit of a coordinate is monotone in it, so boxes that
-// overlap do so in units, too.
+// A cell of level 0 is 2^kSub units wide, one of level l 2^(kSub + l). There are 2^kBits units an axis around
+// the origin; the outermost take all that lies beyond. The unit of a coordinate is monotone in it, so boxes
+// that overlap do so in units, too.
 class CellUnits {
  public:
   static constexpr int kBits = 20, kSub = 3;

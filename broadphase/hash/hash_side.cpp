@@ -23,7 +23,8 @@ FloatBox swept_box(const Supports& supports, std::size_t stride, const int* reco
 
 }  // namespace
 
-HashVertices::HashVertices(const BroadPhaseInput& input, const FloatMap& map, bool is_static, const Stop& stop)
+HashVertices::HashVertices(const BroadPhaseInput& input, const FloatMap& map, bool is_static,
+                           const Stop& stop)
     : inflation(part_inflation(input, is_static)) {
   const PrimitiveFilter& filter = *input.mesh.filter;
   if (!filter.all) {
@@ -73,9 +74,8 @@ void HashSide::lay_out(const BroadPhaseInput& input, const FloatMap& map, Primit
                        const HashVertices& vertices, const Stop& stop) {
   const std::vector<int>& slots = cells.slots();
   AlignedArray<int> in_order(slots.size());
-  if (!each_unless(stop, 0, slots.size(), [&](std::size_t s) {
-        in_order[s] = slots[s] < 0 ? -1 : ids[std::size_t(slots[s])];
-      }))
+  if (!each_unless(stop, 0, slots.size(),
+                   [&](std::size_t s) { in_order[s] = slots[s] < 0 ? -1 : ids[std::size_t(slots[s])]; }))
     return;
   tree.emplace(input.mesh, kind, std::move(in_order), vertices.order, !input.mesh.filter->has_static(), stop);
   if (!stop.requested()) tree->fit(input, vertices.inflation, map, vertices.supports, stop);

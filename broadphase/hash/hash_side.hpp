@@ -23,16 +23,16 @@ struct HashSide {
   std::vector<int> ids;
   std::vector<FloatBox> boxes;
   CellOrder cells;
-  // Blocks of eight boxes in the order of `cells`, and the union of each eight of them. The levels above are not
-  // used.
+  // Blocks of eight boxes in the order of `cells`, and the union of each eight of them. The levels above are
+  // not used.
   std::optional<BoxTree> tree;
 
   // Lists the primitives with the boxes of their whole motion.
   void list(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, bool is_static,
             const HashVertices& vertices, const Stop& stop);
   // Makes the tree of boxes, in the order of the cells.
-  void lay_out(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, const HashVertices& vertices,
-               const Stop& stop);
+  void lay_out(const BroadPhaseInput& input, const FloatMap& map, Primitive kind,
+               const HashVertices& vertices, const Stop& stop);
 };
 
 }  // namespace onset

@@ -1,11 +1,11 @@
 #include "broadphase/hash/spatial_hash.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/free_list.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
+#include "broadphase/hash/cell_width.hpp"
 #include "broadphase/hash/hash_side.hpp"
 
 namespace onset {
@@ -13,32 +13,9 @@ namespace {
 
 constexpr std::size_t kSidesEach = 2;  // of a kind of primitives: those that move, those that are static
 constexpr std::size_t kSides = kSidesEach * kPrimitives.size();
-// The power of two by which a cell is wider than the usual box. Measured on the recorded scenes: with 0 they
-// take up to a third longer, with 2 or 3 up to a fifth less where few pairs meet and two thirds longer where
-// many do.
-constexpr int kWidth = 1;
 // Blocks have so many lanes a primitive at most, else cells are made wider by a power of two.
 constexpr std::size_t kMostLanesEach = 3, kLanesFree = 1024;
 constexpr int kWider = 2;
-
-// Returns the exponent of the power of two not above the median width.
-int usual_exponent(const std::array<HashSide, kSides>& sides) {
-  constexpr int kBias = 127, kExponents = 256;
-  std::array<std::size_t, kExponents> count{};
-  std::size_t all = 0, below = 0;
-  for (const HashSide& side : sides) {
-    for (const FloatBox& box : side.boxes) {
-      const float widest = box.widest();
-      std::uint32_t bits;
-      std::memcpy(&bits, &widest, sizeof bits);
-      ++count[bits >> 23 & 0xff];
-    }
-    all += side.boxes.size();
-  }
-  int e = 0;
-  while (e + 1 < kExponents && 2 * (below += count[std::size_t(e)]) < all) ++e;
-  return e - kBias;
-}
 
 // What is asked for the blocks that may meet those of a range.
 struct Asking {
@@ -163,7 +140,9 @@ class SpatialHash final : public BroadPhase {
     each([&](HashSide& s, Primitive kind, std::size_t part) {
       s.list(input, map, kind, part == 1, vertices[part], stop);
     });
-    int exponent = std::max(usual_exponent(sides_) + kWidth, CellUnits::kLeastExponent);
+    std::vector<const std::vector<FloatBox>*> boxes;
+    for (const HashSide& s : sides_) boxes.push_back(&s.boxes);
+    int exponent = cell_exponent(boxes);
     do {
       if (stop.requested()) return false;
       const CellUnits units(exponent);

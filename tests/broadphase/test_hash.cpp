@@ -1,5 +1,7 @@
-// The cells of the hash: nothing is lost between levels, and meshes of uneven sizes cost no more than even ones.
+// The cells of the hash: nothing is lost between levels, and meshes of uneven sizes cost no more than even
+// ones.
 #include "broadphase/hash/cell_order.hpp"
+#include "broadphase/hash/cell_width.hpp"
 #include "tests/asks.hpp"
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
@@ -19,7 +21,8 @@ std::vector<FloatBox> uneven_boxes(int count, scenes::Random& random) {
     FloatBox b;
     for (std::size_t a = 0; a < 3; ++a) {
       const double lo = scenes::uniform(random, -3, 3) * (i % 50 == 0 ? 1e9 : 1);
-      b.lo[a] = float(lo), b.hi[a] = float(lo + std::exp2(scenes::uniform(random, -14, i % 20 == 0 ? 8 : -3)));
+      b.lo[a] = float(lo),
+      b.hi[a] = float(lo + std::exp2(scenes::uniform(random, -14, i % 20 == 0 ? 8 : -3)));
     }
     boxes.push_back(b);
   }
@@ -90,6 +93,28 @@ TEST_CASE("each primitive is in one slot, and runs hold all that overlap a box, 
         }
       }
     }
+}
+
+TEST_CASE("cells are as wide as boxes where these are dense, and wide enough for some where they are not",
+          "[unit]") {
+  scenes::Random random(37);
+  for (int count : {1, 100, 3000, 100000})
+    for (double size : {1e-6, 1e-3, 0.1, 2.0}) {
+      std::vector<FloatBox> boxes, none;
+      for (int i = 0; i < count; ++i) {
+        FloatBox b;
+        for (std::size_t a = 0; a < 3; ++a)
+          b.lo[a] = float(scenes::uniform(random, -1, 1)), b.hi[a] = b.lo[a] + float(size);
+        boxes.push_back(b);
+      }
+      const int exponent = cell_exponent({&none, &boxes, &none});
+      const CellOrder order(boxes, CellUnits(exponent), {});
+      INFO(count << " boxes of " << size << ", cells of 2^" << exponent);
+      CHECK(std::exp2(exponent) >= 0.9 * size);
+      if (count * size * size * size > 100) CHECK(std::exp2(exponent) <= 4 * size);
+      CHECK(order.blocks() * 8 <= 3 * boxes.size() + 8);
+    }
+  CHECK(cell_exponent({}) == CellUnits::kLeastExponent);
 }
 
 TEST_CASE("meshes of wildly uneven sizes cost the hash little more than even ones", "[property]") {
