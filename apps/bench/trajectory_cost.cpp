@@ -1,5 +1,5 @@
 // What a body that turns adds to the step of a cloth that moves linearly, and what it costs by itself.
-//   onset_trajectory_cost [repeats]
+//   onset_trajectory_cost [repeats [case]]   with a case, from 0: that one alone, for a profiler
 // Prints CPU milliseconds a call, one thread, median over repeats; the cases take turns in one run, and the
 // first round is left out.
 #include <cmath>
@@ -126,8 +126,9 @@ double median(const std::vector<double>& x) { return app::spread(x).median; }
 
 int main(int argc, char** argv) {
   const std::optional<std::int64_t> asked = argc > 1 ? app::parse_whole(argv[1]) : 40;
-  if (!asked || *asked < 1 || *asked > INT32_MAX) {
-    std::fprintf(stderr, "usage: onset_trajectory_cost [REPEATS]\n");
+  const std::optional<std::int64_t> only = argc > 2 ? app::parse_whole(argv[2]) : -1;
+  if (!asked || *asked < 1 || *asked > INT32_MAX || !only || *only < -1 || *only > 6) {
+    std::fprintf(stderr, "usage: onset_trajectory_cost [REPEATS [CASE]]\n");
     return 2;
   }
   const Surface sheet = cloth(kCloth, 0);
@@ -147,7 +148,9 @@ int main(int argc, char** argv) {
   cases.emplace_back("and a body that turns 3, close", joined(sheet, body(-0.15)), n, 3.0);
   cases.emplace_back("a body that turns 3, alone", body(0), 0, 3.0);
   for (int round = 0; round <= int(*asked); ++round)
-    for (Case& c : cases) c.run(round);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (*only < 0 || *only == std::int64_t(i)) cases[i].run(round);
+  if (*only >= 0) return 0;
   std::printf("%-36s %10s %6s %14s %6s %8s\n", "cloth of 20,000, body of 384 triangles", "step ms", "ratio",
               "active set ms", "ratio", "step");
   for (const Case& c : cases)
