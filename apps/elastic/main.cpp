@@ -4,7 +4,6 @@
 #include <exception>
 #include <optional>
 
-#include "elastic/quadratic_program.hpp"
 #include "elastic/stepper.hpp"
 #include "files/interrupts.hpp"
 #include "files/output.hpp"
@@ -22,10 +21,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--scene", a.scene.name, "torus, bars, pile or drop")
       ->check(CLI::IsMember({"torus", "bars", "pile", "drop"}))
       ->capture_default_str();
-  app.add_option(
-         "--contact", a.contact,
-         "barrier, or active-set: constraints in quadratic programs, where the program was built with a "
-         "solver of them")
+  app.add_option("--contact", a.contact, "barrier, or active-set: constraints in quadratic programs")
       ->check(CLI::IsMember({"active-set", "barrier"}))
       ->capture_default_str();
   app.add_option("--tetrahedra", a.scene.tetrahedra, "Of the bodies that move, about")
@@ -56,8 +52,6 @@ void add_options(CLI::App& app, Arguments& a) {
 int run(Arguments a) {
   a.settings.contact =
       a.contact == "barrier" ? elastic::ContactMethod::barrier : elastic::ContactMethod::active_set;
-  if (a.contact == "active-set" && !elastic::has_quadratic_solver())
-    throw std::runtime_error("--contact active-set: built without ProxQP (docs/elastic.md)");
   const elastic::Scene scene = elastic::make_scene(a.scene);
   std::optional<simulation::State> start;
   if (!a.run.restart.empty())

@@ -1,4 +1,4 @@
-// A sparse quadratic program with linear inequalities, solved by ProxQP.
+// A sparse quadratic program with linear inequalities, by augmented Lagrangians.
 #pragma once
 
 #include <Eigen/Sparse>
@@ -21,15 +21,15 @@ struct QuadraticSolution {
   bool feasible = true;         // false: the rows contradict each other, or nearly, and were softened
 };
 
-// Whether the program was built with the solver.
-bool has_quadratic_solver();
-
-// Minimizes 1/2 x . H x + g . x where A x >= bound, to an accuracy of `accuracy` in A x. Where no x will do,
-// or none is found, rows give way by s, at a price of penalty / 2 |s|^2; the last attempt is less accurate.
+// Minimizes 1/2 x . H x + g . x where A x >= bound, to an accuracy of `accuracy` in A x: multipliers follow
+// the rows' violation, and between these rounds Newton's method with an exact line search minimizes the
+// augmented Lagrangian, whose Hessian H + A^T rho A of the active rows is factorized anew where they change.
+// Where no x will do, or none is found, rows give way by s, at a price of penalty / 2 |s|^2.
 //
-// Source: Bambade, El-Kazdadi, Taylor, Carpentier, "ProxQP: yet another quadratic programming solver for
-// robotics and beyond", Robotics: Science and Systems 2022.
-// Throws std::runtime_error where that fails too.
+// Sources: Rockafellar, "Augmented Lagrange multiplier functions and duality in nonconvex programming", SIAM
+// J. Control 12 (1974); Li, Sun, Toh, "A highly efficient semismooth Newton augmented Lagrangian method for
+// solving Lasso problems", SIAM J. Optim. 28 (2018), for its inner method.
+// Throws std::runtime_error where H is not positive definite.
 QuadraticSolution solve(const QuadraticProgram& program, double accuracy, double penalty);
 
 }  // namespace elastic

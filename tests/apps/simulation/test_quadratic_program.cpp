@@ -1,6 +1,8 @@
 // The quadratic programs of the elastic bodies: what they return solves them, at the sizes that contacts
 // have.
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "elastic/quadratic_program.hpp"
 #include "tests/catch.hpp"
@@ -53,6 +55,36 @@ TEST_CASE("a quadratic program is solved whatever the size of its forces", "[uni
     CHECK(found.feasible);
     check_solved(program, found);
     CHECK(found.multipliers.maxCoeff() > force);
+  }
+}
+
+TEST_CASE("rows that repeat each other, in any number, are kept from any guess", "[unit]") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 60; ++trial) {
+    QuadraticProgram program = chain(60, 1e4, 10, -1e-4);
+    const int count = 1 + trial * 3;
+    std::vector<Eigen::Triplet<double>> rows;
+    program.bound = Eigen::VectorXd::Zero(count);
+    program.multipliers_guess = Eigen::VectorXd::Zero(count);
+    const Eigen::VectorXd inside = Eigen::VectorXd::NullaryExpr(60, [&] { return 1e-3 * uniform(random); });
+    for (int r = 0; r < count; ++r) {
+      const bool repeats = r > 0 && r % 3 == 0;
+      for (int k = 0; k < 12; ++k) {
+        if (repeats)
+          rows.emplace_back(r, rows[std::size_t(12 * (r - 1) + k)].col(),
+                            rows[std::size_t(12 * (r - 1) + k)].value());
+        else
+          rows.emplace_back(r, int(random() % 60), uniform(random));
+      }
+      if (trial % 2 == 1) program.multipliers_guess[r] = 100 * std::max(0.0, uniform(random));
+    }
+    program.A.resize(count, 60);
+    program.A.setFromTriplets(rows.begin(), rows.end());
+    program.bound = program.A * inside - Eigen::VectorXd::Constant(count, trial % 3 == 0 ? 0.0 : 1e-6);
+    const QuadraticSolution found = solve(program, kAccuracy, 1e10);
+    CHECK(found.feasible);
+    check_solved(program, found);
   }
 }
 
