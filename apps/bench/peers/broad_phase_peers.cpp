@@ -3,8 +3,8 @@
 //
 //   onset_broad_phase_peers A B [REPEATS]
 //
-// Prints CPU times, the ratio of each round's times, and the number of pairs, which must agree with the
-// tree's: exit status 1 where it does not.
+// Prints CPU times, the ratio of each round's times, and the numbers of pairs. The hash must find as many as
+// the tree, the others as many or a few less: exit status 1 where they do not.
 #include <tbb/global_control.h>
 
 #include <cstdio>
@@ -20,6 +20,7 @@ namespace {
 
 struct Contestant {
   app::Peer peer;
+  bool ours;
   std::vector<double> seconds, ratio;
   onset::PairCounts counts;
 };
@@ -30,16 +31,17 @@ std::vector<Contestant> contestants(const app::Scene& scene) {
                                      std::pair{"onset, hash", onset::BroadPhaseMethod::hash}}) {
     const auto ours = std::make_shared<app::StoredPairs>(scene.mesh, method);
     all.push_back({{name, [ours](const auto& x_t0, const auto& x_t1) { return ours->find(x_t0, x_t1, 1); }},
+                   true,
                    {},
                    {},
                    {}});
   }
 #ifdef ONSET_BENCH_FCL
-  all.push_back({app::fcl_peer(scene.mesh, app::Tree::built), {}, {}, {}});
-  all.push_back({app::fcl_peer(scene.mesh, app::Tree::updated), {}, {}, {}});
+  all.push_back({app::fcl_peer(scene.mesh, app::Tree::built), false, {}, {}, {}});
+  all.push_back({app::fcl_peer(scene.mesh, app::Tree::updated), false, {}, {}, {}});
 #endif
 #ifdef ONSET_BENCH_EMBREE
-  all.push_back({app::embree_peer(scene.mesh), {}, {}, {}});
+  all.push_back({app::embree_peer(scene.mesh), false, {}, {}, {}});
 #endif
   return all;
 }
@@ -55,7 +57,11 @@ void run_round(std::vector<Contestant>& all, const app::Scene& scene, bool warm_
   for (Contestant& c : all) c.ratio.push_back(c.seconds.back() / all[0].seconds.back());
 }
 
-// Our boxes reach a little farther, for what storing positions may change: a few pairs in a million.
+bool same(const onset::PairCounts& a, const onset::PairCounts& b) {
+  return a.vertex_face == b.vertex_face && a.edge_edge == b.edge_edge;
+}
+// Our boxes reach a little farther, for what storing positions may change: one pair in a hundred thousand at
+// most.
 bool agree(const onset::PairCounts& theirs, const onset::PairCounts& ours) {
   const auto few = [](std::int64_t n, std::int64_t of) { return n >= 0 && n <= of / 100000; };
   return few(ours.vertex_face - theirs.vertex_face, ours.vertex_face) &&
@@ -70,7 +76,7 @@ bool print(const std::vector<Contestant>& all) {
     std::printf("%-31s %8.1f [%6.1f, %6.1f]   %6.2f [%5.2f, %5.2f]   %9lld %9lld\n", c.peer.name.c_str(),
                 1e3 * s.median, 1e3 * s.least, 1e3 * s.most, r.median, r.least, r.most,
                 static_cast<long long>(c.counts.vertex_face), static_cast<long long>(c.counts.edge_edge));
-    all_agree = all_agree && agree(c.counts, all[0].counts);
+    all_agree = all_agree && (c.ours ? same : agree)(c.counts, all[0].counts);
   }
   return all_agree;
 }
