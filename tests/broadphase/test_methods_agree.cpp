@@ -145,10 +145,10 @@ TEST_CASE("every method agrees with brute force for every small number of primit
   }
 }
 
-// A hash sorts the members of such a cell by digits, not by comparing.
-TEST_CASE("every method finds the same where most primitives are in two cells", "[property]") {
+// The cells of a hash are as wide as the short ones or a little wider, and it has some levels for the rest.
+TEST_CASE("every method finds the same where most primitives are in one row of cells", "[property]") {
   scenes::Random random(43);
-  constexpr int kShort = 40000, kLong = 400;  // the long ones make the cells
+  constexpr int kShort = 40000, kLong = 400;
   Soup soup;
   soup.mesh.num_vertices = 2 * (kShort + kLong);
   const auto add = [&](double x, double length, double y) {

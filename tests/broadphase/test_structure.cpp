@@ -64,12 +64,13 @@ TEST_CASE("both kernels emit the same pairs in the same order", "[simd]") {
       BroadPhaseInput scalar{soup.mesh, motion}, avx2{soup.mesh, motion};
       scalar.test = avx2.test = test;
       scalar.instruction_set = InstructionSet::scalar, avx2.instruction_set = InstructionSet::avx2;
-      const auto a = make_broad_phase(BroadPhaseMethod::bvh, scalar),
-                 b = make_broad_phase(BroadPhaseMethod::bvh, avx2);
-      for (PairKind kind : kKinds) {
-        INFO(soup.name);
-        REQUIRE(a->blocks(kind) == b->blocks(kind));
-        CHECK((emitted(*a, kind, 0, a->blocks(kind)) == emitted(*b, kind, 0, b->blocks(kind))));
+      for (const BroadPhaseMethod method : {BroadPhaseMethod::bvh, BroadPhaseMethod::hash}) {
+        const auto a = make_broad_phase(method, scalar), b = make_broad_phase(method, avx2);
+        for (PairKind kind : kKinds) {
+          INFO(soup.name << ", " << a->name());
+          REQUIRE(a->blocks(kind) == b->blocks(kind));
+          CHECK((emitted(*a, kind, 0, a->blocks(kind)) == emitted(*b, kind, 0, b->blocks(kind))));
+        }
       }
     }
   }
