@@ -120,7 +120,7 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
   const bool motion = input.test != BoxTest::swept, own = own_supports(input, kind_);
   const BvhKernel& kernel = bvh_kernel(input.instruction_set);
   std::vector<int> used, places;
-  if (own) list_used(used, places);
+  if (own) list_used(used, places, stop);
   const Supports mine =
       own ? make_supports(input, inflation, map, kind_, used.data(), used.size(), stop) : Supports{};
   if (stop.requested()) return;
@@ -141,12 +141,13 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
   for (int row = 0; linear_ && row < kRowsOf[1]; ++row) linear_ = reach(row) < FloatMap::kLargest;
 }
 
-void BoxTree::list_used(std::vector<int>& ids, std::vector<int>& places) const {
-  ids.assign(ids_.data(), ids_.data() + ids_.size());
-  ids.erase(std::remove(ids.begin(), ids.end(), -1), ids.end());
+void BoxTree::list_used(std::vector<int>& ids, std::vector<int>& places, const Stop& stop) const {
+  each_unless(stop, 0, ids_.size(), [&](std::size_t slot) {
+    if (ids_[slot] >= 0) ids.push_back(ids_[slot]);
+  });
   int place = 0;
-  for (std::size_t slot = 0; slot < ids_.size(); ++slot)
-    places.push_back(ids_[slot] >= 0 ? place++ : int(ids.size()));
+  each_unless(stop, 0, ids_.size(),
+              [&](std::size_t slot) { places.push_back(ids_[slot] >= 0 ? place++ : int(ids.size())); });
 }
 
 float BoxTree::reach(int row) const {

@@ -54,7 +54,7 @@ class BoxTree {
   void list_vertices(const MeshData& mesh, const VertexOrder& order, bool alone, const Stop& stop);
   void make_keys(const MeshData& mesh, const Stop& stop);
   // Lists the ids in use, and for each slot the place of its id in that list, or its end.
-  void list_used(std::vector<int>& ids, std::vector<int>& places) const;
+  void list_used(std::vector<int>& ids, std::vector<int>& places, const Stop& stop) const;
 
   Primitive kind_;
   int rounded_axes_ = 0;

@@ -32,15 +32,17 @@ struct Grid {
   std::uint32_t key(const float* p) const { return hilbert_key(cell(p, 0), cell(p, 1), cell(p, 2)); }
 };
 
-// Returns false where all points coincide.
-bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& grid) {
+// Returns false where all points coincide, or where it was stopped.
+bool fit_grid(const float* points, const Keyed* first, const Keyed* last, Grid& grid, const Stop& stop) {
   float lo[3], hi[3];
   for (int i = 0; i < 3; ++i) lo[i] = hi[i] = points[3 * std::size_t(first->index) + std::size_t(i)];
-  for (const Keyed* k = first; k != last; ++k)
+  const auto take = [&](std::size_t k) {
     for (int i = 0; i < 3; ++i) {
-      const float x = points[3 * std::size_t(k->index) + std::size_t(i)];
+      const float x = points[3 * std::size_t(first[k].index) + std::size_t(i)];
       lo[i] = std::min(lo[i], x), hi[i] = std::max(hi[i], x);
     }
+  };
+  if (!each_unless(stop, 0, std::size_t(last - first), take)) return false;
   const float extent = std::max(hi[0] - lo[0], std::max(hi[1] - lo[1], hi[2] - lo[2]));
   if (!(extent > 0)) return false;
   grid.scale = float(1 << kCurveBits) / extent;
@@ -63,7 +65,7 @@ void sort_range(const float* points, Keyed* keys, Keyed* scratch, std::size_t co
                 const Stop& stop) {
   if (stop.requested()) return;
   Grid grid;
-  if (!fit_grid(points, keys, keys + count, grid)) return;
+  if (!fit_grid(points, keys, keys + count, grid, stop)) return;
   parallel_ranges(count, kGrain, [&](std::size_t first, std::size_t last) {
     each_unless(stop, first, last,
                 [&](std::size_t i) { keys[i].key = grid.key(points + 3 * std::size_t(keys[i].index)); });
@@ -93,11 +95,9 @@ std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 bool order_along_curve(const float* points, std::size_t count, int* order, const Stop& stop) {
   if (count == 0) return true;
   std::vector<Keyed> keys(count), scratch(count);
-  for (std::size_t i = 0; i < count; ++i) keys[i] = {0, int(i)};
+  if (!each_unless(stop, 0, count, [&](std::size_t i) { keys[i] = {0, int(i)}; })) return false;
   sort_range(points, keys.data(), scratch.data(), count, 0, stop);
-  if (stop.requested()) return false;
-  for (std::size_t i = 0; i < count; ++i) order[i] = keys[i].index;
-  return true;
+  return each_unless(stop, 0, count, [&](std::size_t i) { order[i] = keys[i].index; });
 }
 
 }  // namespace onset

@@ -68,9 +68,11 @@ VertexOrder make_vertex_order(const Motion& motion, const FloatMap& map, const I
   VertexOrder result;
   result.vertex.resize(count), result.rank.resize(std::size_t(motion.num_vertices));
   if (!order_along_curve(points.data(), count, result.vertex.data(), stop)) return {};
-  if (vertices.ids)
-    for (int& v : result.vertex) v = vertices[std::size_t(v)];
-  for (std::size_t r = 0; r < count; ++r) result.rank[std::size_t(result.vertex[r])] = int(r);
+  each_unless(stop, 0, count, [&](std::size_t r) {
+    int& v = result.vertex[r];
+    v = vertices[std::size_t(v)];
+    result.rank[std::size_t(v)] = int(r);
+  });
   return result;
 }
 
@@ -92,7 +94,8 @@ bool order_primitives(const MeshData& mesh, Primitive kind, const IdList& list, 
   std::vector<int> start(order.vertex.size(), 0);
   if (!each_unless(stop, 0, count, [&](std::size_t i) { ++start[std::size_t(lowest[i])]; })) return false;
   int sum = 0;
-  for (int& n : start) sum += std::exchange(n, sum);
+  if (!each_unless(stop, 0, start.size(), [&](std::size_t r) { sum += std::exchange(start[r], sum); }))
+    return false;
   if (!each_unless(stop, 0, count, [&](std::size_t i) { ids[start[std::size_t(lowest[i])]++] = list[i]; }))
     return false;
   return each_unless(stop, 0, start.size(), [&](std::size_t r) {
