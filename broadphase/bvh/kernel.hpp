@@ -107,12 +107,12 @@ struct TraverseArguments : PairTestArguments {
   bool self;
   // Whether both trees have keys, which are then compared.
   bool keyed;
-  // Blocks at level 1 of `query`, of 64 primitives each.
+  // Blocks at level 1 of `query`, of 64 primitives each, where there is no `list`.
   std::size_t first, last;
   // Decides pairs both of whose keys have kExcludedFlag.
   bool (*excluded)(const void* context, int a, int b);
-  // Null, or lists the pairs of leaf blocks of [first, last) that may meet, each once; the levels above 1 are
-  // then not looked at. Of one tree the query has no larger number than the others.
+  // Null, or lists the pairs of leaf blocks that may meet, each once; kernels then look at no level above 1.
+  // Of one tree the query has no larger number than the others.
   void (*list)(const void* context, const BlockRunSink& sink);
   const void* list_context;
 };

@@ -14,7 +14,9 @@ namespace onset {
 // Each primitive is in one cell: that of the lower corner of its box, at the lowest level where it is no
 // wider than a cell. So each pair belongs to one pair of cells, no list grows with the size of a primitive,
 // and a search at a level looks at few cells, none of them below (docs/theory.md, 13.7). The cells of one
-// level that differ in x alone are a row, which is a run of blocks; rows are found by hashing.
+// level that differ in x alone are a row, which is a run of blocks; rows are found by hashing. A crowd in one
+// cell, such as all that lies beyond the grid, is in the order of a curve, so that unions of its blocks are
+// small and a long run of them can be searched like a tree.
 class CellOrder {
  public:
   CellOrder() = default;
@@ -39,7 +41,7 @@ class CellOrder {
  private:
   struct Block {
     CellBox box;
-    int level, first_x, last_x;  // of the lower corners, from base_
+    int level, first_x, last_x;  // the lower corners are within these, from base_
   };
   // The primitives of a level reach `reach` units from their lower corners at most, which are in [lo, hi].
   struct Level {
@@ -60,8 +62,8 @@ class CellOrder {
   }
   // Finds levels_, base_ and the bits that keys need. Returns false where it was stopped.
   bool measure(const std::vector<CellBox>& cells, const Stop& stop);
-  void cut(const std::vector<Entry>& entries, const std::vector<CellBox>& cells, const Stop& stop);
-  void hash_rows();
+  class Cutter;
+  void hash_rows(const Stop& stop);
   const Row& row(std::uint64_t key) const {
     std::size_t i = std::size_t((key * 0x9e3779b97f4a7c15u) >> hash_shift_);
     while (table_[i].last != 0 && table_[i].key != key) i = (i + 1) & (table_.size() - 1);

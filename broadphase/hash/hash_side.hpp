@@ -23,8 +23,8 @@ struct HashSide {
   std::vector<int> ids;
   std::vector<FloatBox> boxes;
   CellOrder cells;
-  // Blocks of eight boxes in the order of `cells`, and the union of each eight of them. The levels above are
-  // not used.
+  // Blocks of eight boxes in the order of `cells`. Kernels look at them and the unions of eight of them, long
+  // runs are searched from farther up, and all of it tells sides that are apart.
   std::optional<BoxTree> tree;
 
   // Lists the primitives with the boxes of their whole motion.

@@ -5,6 +5,7 @@
 #include "base/free_list.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
+#include "broadphase/hash/block_pairs.hpp"
 #include "broadphase/hash/cell_width.hpp"
 #include "broadphase/hash/hash_side.hpp"
 
@@ -13,70 +14,11 @@ namespace {
 
 constexpr std::size_t kSidesEach = 2;  // of a kind of primitives: those that move, those that are static
 constexpr std::size_t kSides = kSidesEach * kPrimitives.size();
-// Blocks have so many lanes a primitive at most, else cells are made wider by a power of two.
+// Blocks have so many lanes a primitive at most, so their boxes take up to three times as much memory as
+// those of a tree; else cells are made wider. The power of two doubles each time: seven sorts more reach the
+// widest.
 constexpr std::size_t kMostLanesEach = 3, kLanesFree = 1024;
 constexpr int kWider = 2;
-
-// What is asked for the blocks that may meet those of a range.
-struct Asking {
-  const CellOrder &asking, &asked;
-  // Whether those that ask are the query; else they are the other tree.
-  bool query_asks;
-  bool self;
-  std::size_t first, last;  // units of eight blocks
-
-  static void list(const void* context, const BlockRunSink& sink) {
-    Lister(*static_cast<const Asking*>(context), sink).run();
-  }
-
- private:
-  class Lister {
-   public:
-    Lister(const Asking& a, const BlockRunSink& sink) : a_(a), sink_(sink) {}
-
-    void run() {
-      const std::size_t end = std::min(a_.last * kBlock, a_.asking.blocks());
-      for (std::size_t q = a_.first * kBlock; q < end && going_; ++q) {
-        const int level = a_.asking.level(q);
-        // what is of one level asks one way only
-        a_.asked.each_run(a_.asking.box(q), a_.query_asks ? level : level + 1,
-                          [&](int of, int first, int last) {
-                            if (a_.self && of == level) first = std::max(first, int(q));
-                            a_.query_asks ? add_run(int(q), first, last) : add_each(int(q), first, last);
-                          });
-        if (q % kBlock == kBlock - 1) flush();
-      }
-      flush();
-    }
-
-   private:
-    void add_run(int q, int first, int last) {
-      while (first < last) {
-        const int node = first / kBlock, end = std::min(last, (node + 1) * kBlock);
-        add({q, node, ((1 << (end - first)) - 1) << first % kBlock});
-        first = end;
-      }
-    }
-    void add_each(int q, int first, int last) {
-      for (; first < last && going_; ++first) add({first, q / kBlock, 1 << q % kBlock});
-    }
-    void add(const BlockRun& run) {
-      if (count_ == kRuns) flush();
-      runs_[count_++] = run;
-    }
-    void flush() {
-      going_ = going_ && sink_.take(sink_.context, runs_, count_);
-      count_ = 0;
-    }
-
-    static constexpr std::size_t kRuns = 128;
-    const Asking& a_;
-    const BlockRunSink& sink_;
-    bool going_ = true;
-    std::size_t count_ = 0;
-    BlockRun runs_[kRuns];
-  };
-};
 
 class SpatialHash final : public BroadPhase {
  public:
@@ -143,11 +85,13 @@ class SpatialHash final : public BroadPhase {
     std::vector<const std::vector<FloatBox>*> boxes;
     for (const HashSide& s : sides_) boxes.push_back(&s.boxes);
     int exponent = cell_exponent(boxes);
-    do {
+    for (int wider = kWider;; wider *= 2) {
       if (stop.requested()) return false;
       const CellUnits units(exponent);
       each([&](HashSide& s, Primitive, std::size_t) { s.cells = CellOrder(s.boxes, units, stop); });
-    } while (wasteful() && (exponent += kWider) <= CellUnits::kMostExponent);
+      if (!wasteful() || exponent >= CellUnits::kMostExponent) break;
+      exponent = std::min(exponent + wider, CellUnits::kMostExponent);
+    }
     each([&](HashSide& s, Primitive kind, std::size_t part) {
       s.lay_out(input, map, kind, vertices[part], stop);
       s.ids = {}, s.boxes = {};
@@ -183,10 +127,10 @@ class SpatialHash final : public BroadPhase {
     const bool self = couple.query == couple.other;
     const HashSide &asking = couple.query_asks ? *couple.query : *couple.other,
                    &asked = couple.query_asks ? *couple.other : *couple.query;
-    const Asking ask{asking.cells, asked.cells, couple.query_asks, self, first, last};
+    const BlockPairs ask{asking, asked, couple.query_asks, self, input_->test != BoxTest::swept, first, last};
     const TreePairDecision decide{{*input_, kind}};
     TraverseArguments arguments = traverse_arguments(*couple.query->tree, *couple.other->tree, decide, sink);
-    arguments.list = Asking::list, arguments.list_context = &ask;
+    arguments.list = BlockPairs::list, arguments.list_context = &ask;
     arguments.memory = &memory;
     bvh_kernel(input_->instruction_set).traverse(arguments);
   }
