@@ -17,17 +17,17 @@ constexpr int kCells = 2;  // a power of two
 constexpr double kSample = 8;
 
 // Returns the exponent of the power of two not above the median width.
-int usual_exponent(const std::vector<const std::vector<FloatBox>*>& lists) {
+int usual_exponent(const std::vector<const std::vector<FloatBox>*>& lists, const Stop& stop) {
   constexpr int kBias = 127, kExponents = 256;
   std::array<std::size_t, kExponents> count{};
   std::size_t all = 0, below = 0;
   for (const std::vector<FloatBox>* boxes : lists) {
-    for (const FloatBox& box : *boxes) {
-      const float widest = box.widest();
+    each_unless(stop, 0, boxes->size(), [&](std::size_t i) {
+      const float widest = (*boxes)[i].widest();
       std::uint32_t bits;
       std::memcpy(&bits, &widest, sizeof bits);
       ++count[bits >> 23 & 0xff];
-    }
+    });
     all += boxes->size();
   }
   int e = 0;
@@ -66,9 +66,9 @@ double pairs_in_place(const std::vector<FloatBox>& sample, int exponent, std::ve
 
 }  // namespace
 
-int cell_exponent(const std::vector<const std::vector<FloatBox>*>& lists) {
+int cell_exponent(const std::vector<const std::vector<FloatBox>*>& lists, const Stop& stop) {
   if (lists.empty()) return CellUnits::kLeastExponent;
-  int exponent = std::max(usual_exponent(lists) + kWidth, CellUnits::kLeastExponent);
+  int exponent = std::max(usual_exponent(lists, stop) + kWidth, CellUnits::kLeastExponent);
   const std::vector<FloatBox>& most = **std::max_element(
       lists.begin(), lists.end(), [](const auto* a, const auto* b) { return a->size() < b->size(); });
   if (most.empty()) return exponent;
@@ -78,7 +78,7 @@ int cell_exponent(const std::vector<const std::vector<FloatBox>*>& lists) {
   for (std::size_t i = 0; i < most.size(); i += stride) sample.push_back(most[i]);
   const double sampled = double(sample.size()), whole = width_of_all(sample);
   std::vector<std::uint64_t> places;
-  while (exponent < CellUnits::kMostExponent && std::exp2(exponent) < whole &&
+  while (!stop.requested() && exponent < CellUnits::kMostExponent && std::exp2(exponent) < whole &&
          2 * pairs_in_place(sample, exponent, places) * count < kOthers * sampled * sampled)
     ++exponent;
   return exponent;

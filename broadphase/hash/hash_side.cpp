@@ -1,7 +1,5 @@
 #include "broadphase/hash/hash_side.hpp"
 
-#include <numeric>
-
 #include "base/parallel.hpp"
 
 namespace onset {
@@ -21,6 +19,11 @@ FloatBox swept_box(const Supports& supports, std::size_t stride, const int* reco
   return {{0 - reach[0], 0 - reach[1], 0 - reach[2]}, {reach[4], reach[5], reach[6]}};
 }
 
+void number(std::vector<int>& list, std::size_t count, const Stop& stop) {
+  list.resize(count);
+  each_unless(stop, 0, count, [&](std::size_t i) { list[i] = int(i); });
+}
+
 }  // namespace
 
 HashVertices::HashVertices(const BroadPhaseInput& input, const FloatMap& map, bool is_static,
@@ -30,11 +33,12 @@ HashVertices::HashVertices(const BroadPhaseInput& input, const FloatMap& map, bo
   if (!filter.all) {
     order.vertex = is_static ? filter.static_vertices : filter.moving_vertices;
   } else if (!is_static) {
-    order.vertex.resize(std::size_t(input.mesh.num_vertices));
-    std::iota(order.vertex.begin(), order.vertex.end(), 0);
+    number(order.vertex, std::size_t(input.mesh.num_vertices), stop);
   }
   order.rank.resize(std::size_t(input.mesh.num_vertices));
-  for (std::size_t r = 0; r < order.vertex.size(); ++r) order.rank[std::size_t(order.vertex[r])] = int(r);
+  if (!each_unless(stop, 0, order.vertex.size(),
+                   [&](std::size_t r) { order.rank[std::size_t(order.vertex[r])] = int(r); }))
+    return;
   supports =
       make_supports(input, inflation, map, Primitive::vertex, order.vertex.data(), order.vertex.size(), stop);
 }
@@ -47,9 +51,9 @@ void HashSide::list(const BroadPhaseInput& input, const FloatMap& map, Primitive
   } else if (!filter.all) {
     ids = is_static ? filter.statics[std::size_t(kind)] : filter.moving[std::size_t(kind)];
   } else if (!is_static) {
-    ids.resize(primitive_count(input.mesh, kind));
-    std::iota(ids.begin(), ids.end(), 0);
+    number(ids, primitive_count(input.mesh, kind), stop);
   }
+  if (stop.requested()) return;
   const bool own = kind != Primitive::vertex && !input.mesh.thickness.empty();
   const Supports mine =
       own ? make_supports(input, vertices.inflation, map, kind, ids.data(), ids.size(), stop) : Supports{};

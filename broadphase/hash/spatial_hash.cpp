@@ -84,7 +84,7 @@ class SpatialHash final : public BroadPhase {
     });
     std::vector<const std::vector<FloatBox>*> boxes;
     for (const HashSide& s : sides_) boxes.push_back(&s.boxes);
-    int exponent = cell_exponent(boxes);
+    int exponent = cell_exponent(boxes, stop);
     for (int wider = kWider;; wider *= 2) {
       if (stop.requested()) return false;
       const CellUnits units(exponent);

@@ -1,7 +1,12 @@
 // The cells of the hash: nothing is lost between levels, and meshes of uneven sizes cost no more than even
 // ones.
+#include <tbb/task_arena.h>
+
+#include "base/parallel.hpp"
+#include "broadphase/bvh/space_curve.hpp"
 #include "broadphase/hash/cell_order.hpp"
 #include "broadphase/hash/cell_width.hpp"
+#include "broadphase/hash/hash_side.hpp"
 #include "tests/asks.hpp"
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
@@ -149,6 +154,47 @@ TEST_CASE(
         if (n == 0) REQUIRE_FALSE(overlap(boxes[0][a], boxes[1][b]));
       }
   }
+}
+
+// Simple loops over items ask once in kItemsALook of them. One thread asks in the same order each time.
+TEST_CASE("all that makes the cells asks whether it is still wanted", "[property]") {
+  constexpr int kLooks = 8, kCount = kLooks * int(kItemsALook);
+  std::vector<FloatBox> apart, together;
+  for (int i = 0; i < kCount; ++i) {
+    const float x = float(i % 300), y = float(i / 300), size = 0x1p-4f;
+    apart.push_back({{0, x, y}, {size, x + size, y + size}});
+    together.push_back({{x, y, 0}, {x + size, y + size, size}});
+  }
+  MeshData mesh;
+  mesh.num_vertices = kCount;
+  const std::vector<double> x(3 * std::size_t(kCount), 0.0);
+  const Motion motion = make_motion(kCount, {x.data(), kCount}, {x.data(), kCount});
+  const BroadPhaseInput input{mesh, motion};
+  const FloatMap map(motion);
+  tbb::task_arena(1).execute([&] {
+    Asks width, loops, rows, curve, crowd, ranks, supports;
+    cell_exponent({&apart}, width.stop());
+    CHECK(width.count >= kLooks);
+    for (int i = 0; i < 2; ++i)  // boxes to units, and to keys
+      parallel_ranges(kCount, 4096, [&](std::size_t first, std::size_t last) {
+        each_unless(loops.stop(), first, last, [](std::size_t) {});
+      });
+    // levels, five times in a sort, blocks, rows and a table
+    CHECK(CellOrder(apart, CellUnits(-3), rows.stop()).blocks() == std::size_t(kCount));
+    CHECK(rows.count >= loops.count + 9 * kLooks);
+    std::vector<float> points;
+    for (const FloatBox& box : together)
+      for (std::size_t k = 0; k < 3; ++k) points.push_back(box.lo[k] + box.hi[k]);
+    std::vector<int> order(kCount);
+    order_along_curve(points.data(), kCount, order.data(), curve.stop());
+    // levels, once in a sort, cells, points and blocks
+    CHECK(CellOrder(together, CellUnits(40), crowd.stop()).blocks() * 8 == std::size_t(kCount));
+    CHECK(crowd.count >= loops.count + curve.count + 5 * kLooks);
+    // vertices are numbered and ranked, then get supports
+    const HashVertices vertices(input, map, false, ranks.stop());
+    make_supports(input, 0, map, Primitive::vertex, vertices.order.vertex.data(), kCount, supports.stop());
+    CHECK(ranks.count == supports.count + 2 * kLooks);
+  });
 }
 
 TEST_CASE("cells are as wide as boxes where these are dense, and wide enough for some where they are not",
