@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/aligned.hpp"
@@ -25,6 +26,8 @@ class CellOrder {
 
   // Eight a block: places in `boxes`; unused lanes are -1.
   const std::vector<int>& slots() const { return slots_; }
+  // The same; they are gone from here then.
+  std::vector<int> take_slots() { return std::move(slots_); }
   std::size_t blocks() const { return blocks_.size(); }
   const CellBox& box(std::size_t block) const { return blocks_[block].box; }
   int level(std::size_t block) const { return blocks_[block].level; }

@@ -46,7 +46,6 @@ HashVertices::HashVertices(const BroadPhaseInput& input, const FloatMap& map, bo
 void HashSide::list(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, bool is_static,
                     const HashVertices& vertices, const Stop& stop) {
   const PrimitiveFilter& filter = *input.mesh.filter;
-  ids.clear();
   if (!is_wanted(input, kind)) {
   } else if (!filter.all) {
     ids = is_static ? filter.statics[std::size_t(kind)] : filter.moving[std::size_t(kind)];
@@ -76,11 +75,15 @@ void HashSide::list(const BroadPhaseInput& input, const FloatMap& map, Primitive
 
 void HashSide::lay_out(const BroadPhaseInput& input, const FloatMap& map, Primitive kind,
                        const HashVertices& vertices, const Stop& stop) {
-  const std::vector<int>& slots = cells.slots();
-  AlignedArray<int> in_order(slots.size());
-  if (!each_unless(stop, 0, slots.size(),
-                   [&](std::size_t s) { in_order[s] = slots[s] < 0 ? -1 : ids[std::size_t(slots[s])]; }))
-    return;
+  AlignedArray<int> in_order;
+  {
+    const std::vector<int> slots = cells.take_slots();
+    in_order = AlignedArray<int>(slots.size());
+    if (!each_unless(stop, 0, slots.size(),
+                     [&](std::size_t s) { in_order[s] = slots[s] < 0 ? -1 : ids[std::size_t(slots[s])]; }))
+      return;
+  }
+  ids = {}, boxes = {};
   tree.emplace(input.mesh, kind, std::move(in_order), vertices.order, !input.mesh.filter->has_static(), stop);
   if (!stop.requested()) tree->fit(input, vertices.inflation, map, vertices.supports, stop);
 }

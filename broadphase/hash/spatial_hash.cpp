@@ -67,6 +67,7 @@ class SpatialHash final : public BroadPhase {
 
   bool make_sides(const Stop& stop) {
     const BroadPhaseInput& input = *input_;
+    sides_ = {};  // before there are new ones
     const FloatMap map(input.motion);
     const std::size_t parts = input.mesh.filter->has_static() ? 2 : 1;
     std::array<HashVertices, kSidesEach> vertices;
@@ -94,7 +95,6 @@ class SpatialHash final : public BroadPhase {
     }
     each([&](HashSide& s, Primitive kind, std::size_t part) {
       s.lay_out(input, map, kind, vertices[part], stop);
-      s.ids = {}, s.boxes = {};
     });
     return !stop.requested();
   }
