@@ -23,7 +23,8 @@ InstructionSet from_environment() {
   if (name.empty() || name == "automatic") return InstructionSet::automatic;
   if (name == "scalar") return InstructionSet::scalar;
   if (name == "avx2") return InstructionSet::avx2;
-  throw std::invalid_argument("ONSET_KERNEL=" + name + ": expected scalar, avx2 or automatic");
+  if (name == "avx512") return InstructionSet::avx512;
+  throw std::invalid_argument("ONSET_KERNEL=" + name + ": expected scalar, avx2, avx512 or automatic");
 }
 
 }  // namespace
@@ -31,6 +32,25 @@ InstructionSet from_environment() {
 bool has_avx2() {
 #ifdef ONSET_HAVE_AVX2
   return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
+// __builtin_cpu_supports asks the processor, and XCR0 whether the system keeps the registers.
+bool has_avx512() {
+#ifdef ONSET_HAVE_AVX512
+  return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+#else
+  return false;
+#endif
+}
+
+// Those processors lack this part of it.
+bool prefers_avx512() {
+#ifdef ONSET_HAVE_AVX512
+  return has_avx512() && __builtin_cpu_supports("avx512vbmi2");
 #else
   return false;
 #endif
@@ -45,8 +65,14 @@ InstructionSet resolve_instruction_set(InstructionSet requested) {
       if (!has_avx2())
         throw std::invalid_argument("instruction set avx2: not supported by this processor or build");
       return InstructionSet::avx2;
+    case InstructionSet::avx512:
+      if (!has_avx512())
+        throw std::invalid_argument("instruction set avx512: not supported by this processor or build");
+      return InstructionSet::avx512;
     case InstructionSet::automatic:
-      return has_avx2() ? InstructionSet::avx2 : InstructionSet::scalar;
+      return prefers_avx512() ? InstructionSet::avx512
+             : has_avx2()     ? InstructionSet::avx2
+                              : InstructionSet::scalar;
   }
   throw std::invalid_argument("instruction set " + std::to_string(int(set)) + ": unknown");
 }
@@ -57,6 +83,8 @@ const char* to_string(InstructionSet set) {
       return "scalar";
     case InstructionSet::avx2:
       return "avx2";
+    case InstructionSet::avx512:
+      return "avx512";
     default:
       return "automatic";
   }

@@ -41,7 +41,7 @@ WORDS = {
     r"\b[Ff]ixed_?([Cc]ache|[Tt]rees|[Mm]otion)\b": "StaticCache, StaticTrees, StaticMotion",
     r"\blook_(at|up|in_\w+)\b": "closest_direction, gather",
     r"\bcontact_frames?\b|\bContactFrame\b": "contact_geometry",
-    r"\benum class Kernel\b|\bKernel::(scalar|avx2)\b|\bOptions::kernel\b": "InstructionSet",
+    r"\benum class Kernel\b|\bKernel::(scalar|avx2|avx512)\b|\bOptions::kernel\b": "InstructionSet",
     r"#\s*(define|undef|ifdef|ifndef)\s+ONSET_KERNEL\b": "ONSET_ISA",
     r"\b(Pair)?Outcome::budget\b|\bStats::budget\b|\bstats\.budget\b": "max_checks, gave_up",
     r"\bCertaintyLevel\b|\bOptions::certainty\b|\boptions\.certainty\b": "Exactness, Options::exactness",

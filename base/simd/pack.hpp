@@ -1,18 +1,22 @@
-// Lanes of numbers for the kernels: D4 (four doubles), F8 (eight floats), I8 (eight ints), and masks.
+// Lanes of numbers for the kernels: D4 (four doubles), F8 (eight floats), I8 (eight ints), and masks. A text
+// of generic width calls them Doubles, Floats and Ints, and is compiled for packs of twice as many lanes
+// where its translation unit defines ONSET_WIDE_PACKS and enables AVX-512.
 //
 // The translation unit of a kernel text defines ONSET_ISA, the namespace of its copy. With AVX2 enabled
-// there, packs are registers; else they are two halves in the vector types of GCC and Clang (SSE2 on x86-64,
-// NEON on Arm, else plain code). Both give the same bits for every input: only IEEE + - * / sqrt, comparisons
-// and bit operations are used; min and max are `a < b ? a : b` and `a > b ? a : b`, where the second operand
-// wins on NaN or equality, as in vminpd; nothing is contracted (-ffp-contract=off). All has internal linkage,
-// so that the linker never shares a copy compiled for AVX2.
+// there, packs are registers, as with AVX-512; else they are two halves in the vector types of GCC and Clang
+// (SSE2 on x86-64, NEON on Arm, else plain code). All give the same bits for every input: only IEEE + - * /
+// sqrt, comparisons and bit operations are used; min and max are `a < b ? a : b` and `a > b ? a : b`, where
+// the second operand wins on NaN or equality, as in vminpd; nothing is contracted (-ffp-contract=off). All
+// has internal linkage, so that the linker never shares a copy compiled for a newer set.
 #pragma once
 
 #ifndef ONSET_ISA
 #error "define ONSET_ISA, the namespace of this instruction set's copy, before including base/simd/pack.hpp"
 #endif
 
-#if defined(__AVX2__)
+#if defined(ONSET_WIDE_PACKS)
+#include "base/simd/pack_avx512.hpp"
+#elif defined(__AVX2__)
 #include "base/simd/pack_avx2.hpp"
 #else
 #include "base/simd/pack_halves.hpp"
@@ -21,6 +25,16 @@
 namespace onset {
 namespace ONSET_ISA {
 namespace {
+
+#if defined(ONSET_WIDE_PACKS)
+using Doubles = D8;
+using Floats = F16;
+using Ints = I16;
+#else
+using Doubles = D4;
+using Floats = F8;
+using Ints = I8;
+#endif
 
 inline int lowest_lane(int mask) { return __builtin_ctz(unsigned(mask)); }
 inline int count_lanes(int mask) { return __builtin_popcount(unsigned(mask)); }

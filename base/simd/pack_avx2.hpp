@@ -69,10 +69,10 @@ inline MaskF8 operator|(MaskF8 a, MaskF8 b) { return {_mm256_or_ps(a.m, b.m)}; }
 inline F8 select(MaskF8 m, F8 a, F8 b) { return {_mm256_blendv_ps(b.v, a.v, m.m)}; }
 inline int bits(MaskF8 m) { return _mm256_movemask_ps(m.m); }
 
-// Loads x, y, z of the four points at p0..p3 (four doubles each), one point a lane.
-inline void transpose(const double* p0, const double* p1, const double* p2, const double* p3, D4 (&xyz)[3]) {
-  const __m256d a = _mm256_loadu_pd(p0), b = _mm256_loadu_pd(p1), c = _mm256_loadu_pd(p2),
-                d = _mm256_loadu_pd(p3);
+// Loads x, y, z of the points at each p[l] + at (four doubles each), one point a lane.
+inline void transpose(const double* const (&p)[4], int at, D4 (&xyz)[3]) {
+  const __m256d a = _mm256_loadu_pd(p[0] + at), b = _mm256_loadu_pd(p[1] + at),
+                c = _mm256_loadu_pd(p[2] + at), d = _mm256_loadu_pd(p[3] + at);
   const __m256d ab_lo = _mm256_unpacklo_pd(a, b), ab_hi = _mm256_unpackhi_pd(a, b);
   const __m256d cd_lo = _mm256_unpacklo_pd(c, d), cd_hi = _mm256_unpackhi_pd(c, d);
   xyz[0].v = _mm256_permute2f128_pd(ab_lo, cd_lo, 0x20);

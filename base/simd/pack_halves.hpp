@@ -175,9 +175,9 @@ __attribute__((always_inline)) inline void transpose(F8* x) {
       half[j % 4] = from[j][i];
     }
 }
-// Loads x, y, z of the four points at p0..p3 (four doubles each), one point a lane.
-inline void transpose(const double* p0, const double* p1, const double* p2, const double* p3, D4 (&xyz)[3]) {
-  for (int a = 0; a < 3; ++a) xyz[a] = {Double2{p0[a], p1[a]}, Double2{p2[a], p3[a]}};
+// Loads x, y, z of the points at each p[l] + at (four doubles each), one point a lane.
+inline void transpose(const double* const (&p)[4], int at, D4 (&xyz)[3]) {
+  for (int a = at; a < at + 3; ++a) xyz[a - at] = {Double2{p[0][a], p[1][a]}, Double2{p[2][a], p[3][a]}};
 }
 // Loads the first seven of the eight floats at each p[l], one p a lane.
 inline void transpose(const float* const (&p)[8], F8 (&out)[7]) {

@@ -202,7 +202,7 @@ const BvhKernel& bvh_kernel(InstructionSet kernel) {
 #ifdef ONSET_HAVE_AVX2
   static constexpr BvhKernel avx2{bvh_avx2::fit_leaves, bvh_avx2::fit_level, bvh_avx2::write_vertices,
                                   bvh_avx2::traverse};
-  if (resolve_instruction_set(kernel) == InstructionSet::avx2) return avx2;
+  if (runs_avx2(resolve_instruction_set(kernel))) return avx2;
 #endif
   (void)kernel;
   return scalar;

@@ -54,8 +54,7 @@ const int* vertices_of(const MeshData& mesh, Primitive kind) {
 
 void test_pairs(const HeldArguments& arguments, InstructionSet instruction_set) {
 #ifdef ONSET_HAVE_AVX2
-  if (resolve_instruction_set(instruction_set) == InstructionSet::avx2)
-    return held_avx2::test_pairs(arguments);
+  if (runs_avx2(resolve_instruction_set(instruction_set))) return held_avx2::test_pairs(arguments);
 #endif
   (void)instruction_set;
   held_scalar::test_pairs(arguments);

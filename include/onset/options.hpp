@@ -21,10 +21,10 @@ enum class BroadPhaseMethod { automatic, bvh, hash, brute };
 // finder as the last resort.
 enum class NarrowPhaseMethod { automatic, inclusion };
 // Which copy of the code runs; the answers are the same bytes. automatic: what ONSET_KERNEL in the
-// environment says (scalar, avx2), else the best there is. The environment is read once, by the first call
-// with automatic; what is set later changes nothing. A call throws std::invalid_argument for one that the
-// processor or the build lacks, and each call with automatic for another word in ONSET_KERNEL.
-enum class InstructionSet { automatic, scalar, avx2 };
+// environment says (scalar, avx2, avx512), else the best there is. The environment is read once, by the first
+// call with automatic; what is set later changes nothing. A call throws std::invalid_argument for one that
+// the processor or the build lacks, and each call with automatic for another word in ONSET_KERNEL.
+enum class InstructionSet { automatic, scalar, avx2, avx512 };
 // How far a call goes to tell a real contact from one that only comes within the tolerance, at separation 0
 // (docs/exactness.md). No level misses a contact.
 // conservative: not at all.

@@ -116,8 +116,8 @@ inline Check<V, K> advance(State<V, K>& s, const V (&w)[3], V dist, bool maximum
 }
 
 template <int K>
-inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResult& r) {
-  const auto at = [&](const D4& v) { return reinterpret_cast<const double*>(&v)[lane]; };
+inline void report(const State<Doubles, K>& s, int lane, Verdict verdict, KernelResult& r) {
+  const auto at = [&](const Doubles& v) { return reinterpret_cast<const double*>(&v)[lane]; };
   r.t = at(s.t) < 1 ? at(s.t) : 1;
   r.distance = at(s.dist);
   r.delta = at(s.delta);
@@ -130,12 +130,12 @@ inline void report(const State<D4, K>& s, int lane, Verdict verdict, KernelResul
 
 // A verdict of -1 means that the lane goes on.
 template <int K>
-inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const KernelPairs& pairs,
-                  int (&verdict)[4]) {
+inline void judge(const State<Doubles, K>& s, const Check<Doubles, K>& check, const KernelPairs& pairs,
+                  int (&verdict)[Doubles::lanes]) {
   const int contact = bits(check.contact), stuck = bits(check.stuck);
-  const int done = bits(s.t >= D4::all(1)), beyond = bits(s.t > D4::all(pairs.t_max));
-  const int spent = bits(s.checks >= D4::all(static_cast<double>(pairs.max_checks)));
-  for (int l = 0; l < 4; ++l) {
+  const int done = bits(s.t >= Doubles::all(1)), beyond = bits(s.t > Doubles::all(pairs.t_max));
+  const int spent = bits(s.checks >= Doubles::all(static_cast<double>(pairs.max_checks)));
+  for (int l = 0; l < Doubles::lanes; ++l) {
     const int bit = 1 << l;
     verdict[l] = -1;
     if ((done | beyond) & bit)
@@ -152,9 +152,9 @@ inline void judge(const State<D4, K>& s, const Check<D4, K>& check, const Kernel
 // Returns what each lane keeps beyond d of its gap, which is between `apart` and dist - d (paper, section
 // 7.2: d = p d_i). Lanes without room for it, or whose bounds differ by more than 2^-10, become `unsure`.
 template <int K>
-inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4, K>& s, D4 dist, D4 apart,
-                  D4::Mask& unsure) {
-  using V = D4;
+inline Doubles kept_of(const KernelPairs& pairs, const int (&rows)[Doubles::lanes],
+                       const State<Doubles, K>& s, Doubles dist, Doubles apart, Doubles::Mask& unsure) {
+  using V = Doubles;
   Points<V> p;
   gather(pairs, rows, p);
   V largest = zero<V>();
@@ -172,8 +172,9 @@ inline D4 kept_of(const KernelPairs& pairs, const int (&rows)[4], const State<D4
 
 // Makes the first check, at t = 0: fixes delta and finds the pairs that start within d.
 template <int K>
-inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4, K>& s, int (&verdict)[4]) {
-  using V = D4;
+inline void first_check(const KernelPairs& pairs, const int (&rows)[Doubles::lanes], State<Doubles, K>& s,
+                        int (&verdict)[Doubles::lanes]) {
+  using V = Doubles;
   const bool maximum_norm = pairs.maximum_norm;
   V w[3], dist;
   closest_direction(s, s.t, maximum_norm, w, dist);
@@ -201,7 +202,7 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
   judge(s, check, pairs, verdict);
   const int initial = bits(unsure) | ~bits(apart > zero<V>());
   const int moved = bits(s.t > zero<V>());
-  for (int l = 0; l < 4; ++l) {
+  for (int l = 0; l < Doubles::lanes; ++l) {
     // A pair near contact at 0 that is certified until later is looked at there, if a check is left.
     if (verdict[l] == int(Verdict::contact) && (moved >> l & 1))
       verdict[l] = pairs.max_checks > 1 ? -1 : int(Verdict::max_checks);
@@ -210,23 +211,25 @@ inline void first_check(const KernelPairs& pairs, const int (&rows)[4], State<D4
 }
 
 template <int K>
-inline void restore(const KernelResume* resume, const int (&positions)[4], State<D4, K>& s) {
-  double t[4], separation[4], delta[4], slow[4], checks[4];
-  for (int l = 0; l < 4; ++l) {
+inline void restore(const KernelResume* resume, const int (&positions)[Doubles::lanes],
+                    State<Doubles, K>& s) {
+  double t[Doubles::lanes], separation[Doubles::lanes], delta[Doubles::lanes], slow[Doubles::lanes],
+      checks[Doubles::lanes];
+  for (int l = 0; l < Doubles::lanes; ++l) {
     const KernelResume& r = resume[positions[l]];
     t[l] = r.t, separation[l] = r.separation, delta[l] = r.delta, slow[l] = -r.patience,
     checks[l] = static_cast<double>(r.checks);
   }
-  s.t = D4::load(t);
-  s.d = D4::load(separation);
-  s.delta = D4::load(delta);
-  s.slow = D4::load(slow);
-  s.checks = D4::load(checks);
+  s.t = Doubles::load(t);
+  s.d = Doubles::load(separation);
+  s.delta = Doubles::load(delta);
+  s.slow = Doubles::load(slow);
+  s.checks = Doubles::load(checks);
 }
 
 template <int K>
-inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) {
-  D4 w[3], dist;
+inline void check(const KernelPairs& pairs, State<Doubles, K>& s, int (&verdict)[Doubles::lanes]) {
+  Doubles w[3], dist;
   closest_direction(s, s.t, pairs.maximum_norm, w, dist);
   judge(s, advance(s, w, dist, pairs.maximum_norm, false), pairs, verdict);
 }
@@ -234,12 +237,12 @@ inline void check(const KernelPairs& pairs, State<D4, K>& s, int (&verdict)[4]) 
 // Pairs that were set up and checked twice, which decides most; `waiting` marks those that go on.
 template <int K>
 struct Pending {
-  State<D4, K> state;
-  int owner[4];
+  State<Doubles, K> state;
+  int owner[Doubles::lanes];
   int waiting = 0;
 
-  void finish(const int (&verdict)[4], KernelResult* results) {
-    for (int l = 0; l < 4; ++l) {
+  void finish(const int (&verdict)[Doubles::lanes], KernelResult* results) {
+    for (int l = 0; l < Doubles::lanes; ++l) {
       if (!(waiting >> l & 1) || verdict[l] < 0) continue;
       report(state, l, Verdict(verdict[l]), results[owner[l]]);
       waiting &= ~(1 << l);
@@ -249,8 +252,8 @@ struct Pending {
 template <int K>
 inline void refill(const KernelPairs& pairs, const int* subset, int first, int count,
                    const KernelResume* resume, Pending<K>& pending, KernelResult* results) {
-  int rows[4], verdict[4] = {-1, -1, -1, -1};
-  for (int l = 0; l < 4; ++l) {
+  int rows[Doubles::lanes], verdict[Doubles::lanes];
+  for (int l = 0; l < Doubles::lanes; ++l) {
     pending.owner[l] = first + l < count ? first + l : count - 1;
     rows[l] = subset[pending.owner[l]];
     pending.waiting |= int(first + l < count) << l;
@@ -265,23 +268,24 @@ inline void refill(const KernelPairs& pairs, const int* subset, int first, int c
 }
 
 template <int K>
-inline void move_lane(const State<D4, K>& from, int from_lane, State<D4, K>& to, int to_lane) {
+inline void move_lane(const State<Doubles, K>& from, int from_lane, State<Doubles, K>& to, int to_lane) {
   const double* source = reinterpret_cast<const double*>(&from) + from_lane;
   double* target = reinterpret_cast<double*>(&to) + to_lane;
-  for (int i = 0; i < kFields<K>; ++i) target[4 * i] = source[4 * i];
+  for (int i = 0; i < kFields<K>; ++i) target[Doubles::lanes * i] = source[Doubles::lanes * i];
 }
 
 // Lanes are independent: a result does not depend on which pairs share the registers.
 template <int K>
 inline void advance_all(const KernelPairs& pairs, const int* subset, int count, const KernelResume* resume,
                         KernelResult* results) {
-  State<D4, K> lanes = {};
+  State<Doubles, K> lanes = {};
   Pending<K> pending;
-  int owner[4] = {-1, -1, -1, -1}, active = 0, next = 0;
+  int owner[Doubles::lanes], active = 0, next = 0;
+  for (int& o : owner) o = -1;
   while (true) {
-    for (int l = 0; l < 4; ++l) {
+    for (int l = 0; l < Doubles::lanes; ++l) {
       if (owner[l] >= 0) continue;
-      for (; pending.waiting == 0 && next < count; next += 4)
+      for (; pending.waiting == 0 && next < count; next += Doubles::lanes)
         refill(pairs, subset, next, count, resume, pending, results);
       if (pending.waiting == 0) break;
       const int from = __builtin_ctz(static_cast<unsigned>(pending.waiting));
@@ -291,9 +295,9 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
       ++active;
     }
     if (active == 0) return;
-    int verdict[4];
+    int verdict[Doubles::lanes];
     check(pairs, lanes, verdict);
-    for (int l = 0; l < 4; ++l)
+    for (int l = 0; l < Doubles::lanes; ++l)
       if (owner[l] >= 0 && verdict[l] >= 0) {
         report(lanes, l, Verdict(verdict[l]), results[owner[l]]);
         owner[l] = -1;
@@ -304,12 +308,13 @@ inline void advance_all(const KernelPairs& pairs, const int* subset, int count, 
 
 template <int K>
 inline double closest_direction_of(const KernelPairs& pairs, int row, double t, double (&w)[3]) {
-  const int rows[4] = {row, row, row, row};
-  State<D4, K> s;
+  int rows[Doubles::lanes];
+  for (int& r : rows) r = row;
+  State<Doubles, K> s;
   set_up(pairs, rows, s);
-  D4 direction[3], dist;
-  closest_direction(s, D4::all(t), pairs.maximum_norm, direction, dist);
-  double lanes[4];
+  Doubles direction[3], dist;
+  closest_direction(s, Doubles::all(t), pairs.maximum_norm, direction, dist);
+  double lanes[Doubles::lanes];
   for (int a = 0; a < 3; ++a) {
     direction[a].store(lanes);
     w[a] = lanes[0];

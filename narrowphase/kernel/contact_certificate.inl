@@ -18,19 +18,19 @@ struct RelativeMotion {
 };
 
 template <int K>
-inline void set_relative(const KernelPairs& pairs, const int* rows, RelativeMotion<D4>& r) {
-  Points<D4> p;
+inline void set_relative(const KernelPairs& pairs, const int* rows, RelativeMotion<Doubles>& r) {
+  Points<Doubles> p;
   gather(pairs, rows, p);
-  D4 largest = zero<D4>();
+  Doubles largest = zero<Doubles>();
   for (int end = 0; end < 2; ++end)
     for (int i = 0; i < 3; ++i) {
-      const D4(&x)[4][3] = p.p[end];
+      const Doubles(&x)[4][3] = p.p[end];
       r.q[end][i] = K == 4 ? x[2][i] - x[0][i] : x[0][i] - x[1][i];
       r.a[end][i] = K == 4 ? x[1][i] - x[0][i] : x[2][i] - x[1][i];
       r.b[end][i] = K == 4 ? x[2][i] - x[3][i] : x[3][i] - x[1][i];
       largest = max(max(abs(r.q[end][i]), abs(r.a[end][i])), max(abs(r.b[end][i]), largest));
     }
-  const D4 scale = r.scale = inverse_power_of_two(largest);
+  const Doubles scale = r.scale = inverse_power_of_two(largest);
   for (int end = 0; end < 2; ++end)
     for (int i = 0; i < 3; ++i) {
       r.q[end][i] = r.q[end][i] * scale;
@@ -113,10 +113,10 @@ inline void set_inside(const RelativeMotion<V>& r, V time, V width, V mq, V ma, 
   out.en = each * (ma * mb) + underflow<V>();
 }
 
-// Returns the time by which four pairs, apart before t, have certainly touched; 2: not certain.
+// Returns the time by which pairs, one a lane, apart before t, have certainly touched; 2: not certain.
 template <int K>
-inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
-  using V = D4;
+inline Doubles touched_by(const KernelPairs& pairs, const int* rows, Doubles t) {
+  using V = Doubles;
   RelativeMotion<V> r;
   set_relative<K>(pairs, rows, r);
   V f[4], root, slope;
@@ -142,34 +142,36 @@ inline D4 touched_by(const KernelPairs& pairs, const int* rows, D4 t) {
   return select(changes & inside & (width <= V::all(1.0 / 64)), hi, V::all(2));
 }
 
-// Sets touched_by of results that are contacts without separation, by `touched_by_of` of four pairs at once.
+// Sets touched_by of results that are contacts without separation, by `touched_by_of` of as many pairs at
+// once as there are lanes.
 template <class TouchedBy>
 inline void certify_contacts(const KernelPairs& pairs, const int* subset, int count, KernelResult* results,
                              TouchedBy&& touched_by_of) {
-  int owner[4], waiting = 0;
+  int owner[Doubles::lanes], waiting = 0;
   const auto flush = [&] {
     if (waiting == 0) return;
-    int rows[4];
-    double t[4], touched[4];
-    for (int l = 0; l < 4; ++l) {
+    int rows[Doubles::lanes];
+    double t[Doubles::lanes], touched[Doubles::lanes];
+    for (int l = 0; l < Doubles::lanes; ++l) {
       const int i = owner[l < waiting ? l : 0];
       rows[l] = subset[i];
       t[l] = results[i].t;
     }
-    touched_by_of(pairs, rows, D4::load(t)).store(touched);
+    touched_by_of(pairs, rows, Doubles::load(t)).store(touched);
     for (int l = 0; l < waiting; ++l) results[owner[l]].touched_by = touched[l];
     waiting = 0;
   };
   for (int i = 0; i < count; ++i) {
     if (results[i].verdict != Verdict::contact || pairs.separation[subset[i]] != 0) continue;
     owner[waiting++] = i;
-    if (waiting == 4) flush();
+    if (waiting == Doubles::lanes) flush();
   }
   flush();
 }
 
 template <int K>
 inline void certify_all(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
-  certify_contacts(pairs, subset, count, results,
-                   [](const KernelPairs& p, const int* rows, D4 t) { return touched_by<K>(p, rows, t); });
+  certify_contacts(pairs, subset, count, results, [](const KernelPairs& p, const int* rows, Doubles t) {
+    return touched_by<K>(p, rows, t);
+  });
 }

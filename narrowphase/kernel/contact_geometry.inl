@@ -74,11 +74,12 @@ inline void geometry_at(const RelativeMotion<V>& r, V t, Geometry<V>& f) {
 
 template <int K>
 inline void contact_geometry_all(const KernelPairs& pairs, const double* t, KernelContact* contacts) {
-  using V = D4;
-  for (int first = 0; first < pairs.count; first += 4) {
-    int rows[4];
-    double times[4], u[4], v[4], n[3][4], gap[4], speed[4], unit[4];
-    for (int l = 0; l < 4; ++l) {
+  using V = Doubles;
+  for (int first = 0; first < pairs.count; first += V::lanes) {
+    int rows[V::lanes];
+    double times[V::lanes], u[V::lanes], v[V::lanes], n[3][V::lanes], gap[V::lanes], speed[V::lanes],
+        unit[V::lanes];
+    for (int l = 0; l < V::lanes; ++l) {
       rows[l] = first + l < pairs.count ? first + l : pairs.count - 1;
       times[l] = t[rows[l]];
     }
@@ -90,7 +91,7 @@ inline void contact_geometry_all(const KernelPairs& pairs, const double* t, Kern
     (one<V>() / r.scale).store(unit);
     for (int i = 0; i < 3; ++i) f.normal[i].store(n[i]);
     const int ordinary = bits(f.ordinary);
-    for (int l = 0; l < 4 && first + l < pairs.count; ++l) {
+    for (int l = 0; l < V::lanes && first + l < pairs.count; ++l) {
       KernelContact& out = contacts[first + l];
       out.ordinary = ordinary >> l & 1;
       const double weights[2][4] = {{1, -(1 - u[l] - v[l]), -u[l], -v[l]},

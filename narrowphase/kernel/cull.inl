@@ -1,4 +1,4 @@
-// Kernel text: the culls, in single precision, eight pairs at a time; u = 2^-24 here (docs/theory.md, §12).
+// Kernel text: the culls, in single precision, a pair a lane; u = 2^-24 here (docs/theory.md, §12).
 //
 // Corner differences are formed in double, scaled alike for the scene and rounded to float once. A Bernstein
 // coefficient errs by 6u |w| rho; 7u covers second order and |w| <= 1 + 5u, 2^-140 underflow (L23). d is
@@ -6,9 +6,9 @@
 
 template <int K>
 struct FloatPairs {
-  F8 c[2][K][3];  // corners at both ends
-  F8 d;           // separation
-  F8 error;       // bound of a coefficient's error
+  Floats c[2][K][3];  // corners at both ends
+  Floats d;           // separation
+  Floats error;       // bound of a coefficient's error
 };
 
 // Moves the far end to t_max. A pair beyond d + reach until then is not reported earlier unless it spends its
@@ -24,25 +24,28 @@ struct InOrder {
   int first;
   int operator[](int lane) const { return first + lane; }
   InOrder from(int lane) const { return {first + lane}; }
+  Ints in_lanes() const { return Ints::all(first) + Ints::lane_numbers(); }
 };
 struct Listed {
   const int* rows;
   int operator[](int lane) const { return rows[lane]; }
   Listed from(int lane) const { return {rows + lane}; }
+  Ints in_lanes() const { return Ints::load(rows); }
 };
 
 template <class Rows>
-inline F8 float_separation(const KernelPairs& pairs, Rows rows) {
+inline Floats float_separation(const KernelPairs& pairs, Rows rows) {
   const double beyond = pairs.cull_t_max < 1 ? pairs.reach : 0;
-  double of_pair[8];
-  for (int l = 0; l < 8; ++l)
+  double of_pair[Floats::lanes];
+  for (int l = 0; l < Floats::lanes; ++l)
     of_pair[l] = (pairs.separation[rows[l]] + pairs.cull_beyond + beyond) * pairs.scale;
-  return to_float(D4::load(of_pair), D4::load(of_pair + 4)) * F8::all(1 + 0x1p-22f);
+  return to_float(Doubles::load(of_pair), Doubles::load(of_pair + Doubles::lanes)) *
+         Floats::all(1 + 0x1p-22f);
 }
 
 template <int K>
-inline F8 rho_of(const F8 (&c)[2][K][3]) {
-  F8 R[3] = {zero<F8>(), zero<F8>(), zero<F8>()};
+inline Floats rho_of(const Floats (&c)[2][K][3]) {
+  Floats R[3] = {zero<Floats>(), zero<Floats>(), zero<Floats>()};
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < K; ++k)
       for (int a = 0; a < 3; ++a) R[a] = max(abs(c[end][k][a]), R[a]);
@@ -51,14 +54,14 @@ inline F8 rho_of(const F8 (&c)[2][K][3]) {
 
 template <int K, class Rows>
 inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& out) {
-  using V = F8;
-  D4 lanes[2][2][K][3];
-  const D4 scale = D4::all(pairs.scale);
+  using V = Floats;
+  Doubles lanes[2][2][K][3];
+  const Doubles scale = Doubles::all(pairs.scale);
   for (int half = 0; half < 2; ++half) {
-    Points<D4> p;
-    gather(pairs, rows.from(4 * half), p);
+    Points<Doubles> p;
+    gather(pairs, rows.from(Doubles::lanes * half), p);
     for (int end = 0; end < 2; ++end) corners_of(p.p[end], lanes[half][end]);
-    if (pairs.cull_t_max < 1) cut_short(lanes[half][0], lanes[half][1], D4::all(pairs.cull_t_max));
+    if (pairs.cull_t_max < 1) cut_short(lanes[half][0], lanes[half][1], Doubles::all(pairs.cull_t_max));
   }
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < K; ++k)
@@ -73,11 +76,11 @@ inline void float_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& ou
 // and a t_max below 2^-126 (docs/theory.md, L25).
 template <int K, class Rows>
 inline void rounded_corners(const KernelPairs& pairs, Rows rows, FloatPairs<K>& out) {
-  using V = F8;
+  using V = Floats;
   V p[2][4][3], of_vertex[4];
   for (int i = 0; i < 4; ++i) {
-    const float* row[8];
-    for (int l = 0; l < 8; ++l)
+    const float* row[Floats::lanes];
+    for (int l = 0; l < Floats::lanes; ++l)
       row[l] = pairs.rounded + static_cast<long long>(pairs.vertices[rows[l]][i]) * 8;
     V x[7];
     transpose(row, x);
@@ -173,8 +176,8 @@ inline V initial_gap(const V (&c)[K][3], V error) {  // the point errs by < 10u 
 // the pair is within m = d + error only where the line from s0 to s1 is not negative, for s = max_k c_k + m
 // and s = m - min_k c_k. Roots are known within 4u; 2^-20 = 16u is taken off (docs/theory.md, L26).
 template <int K>
-inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F8 m) {
-  using V = F8;
+inline Floats::Mask moving_boxes_apart(const Floats (&c0)[K][3], const Floats (&c1)[K][3], Floats m) {
+  using V = Floats;
   V begin = zero<V>(), end = one<V>();
   for (int a = 0; a < 3; ++a) {
     V most[2] = {c0[0][a], c1[0][a]}, least[2] = {c0[0][a], c1[0][a]};
@@ -195,8 +198,8 @@ inline F8::Mask moving_boxes_apart(const F8 (&c0)[K][3], const F8 (&c1)[K][3], F
 
 // Returns the mask of pairs that are apart; `refined` tries two halves, each with its own turning direction.
 template <int K, class Rows>
-inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
-  using V = F8;
+inline int cull_lanes(const KernelPairs& pairs, Rows rows, bool refined) {
+  using V = Floats;
   FloatPairs<K> s;
   if (!refined && pairs.rounded != nullptr)
     rounded_corners(pairs, rows, s);
@@ -222,31 +225,34 @@ inline int cull_eight(const KernelPairs& pairs, Rows rows, bool refined) {
               moving_boxes_apart(s.c[0], s.c[1], d + s.error));
 }
 
+// Writes a whole pack, of which the survivors are the first lanes; returns their number.
 template <class Rows>
 inline int write_survivors(int apart, Rows rows, int valid, int* out) {
-  int survivors = 0;
-  for (int l = 0; l < valid; ++l) {
-    out[survivors] = rows[l];
-    survivors += !(apart >> l & 1);
-  }
+  const int survivors = ~apart & valid;
+  compress(rows.in_lanes(), survivors).store(out);
+  return count_lanes(survivors);
+}
+
+constexpr int kAllFloats = (1 << Floats::lanes) - 1;
+
+// Fills the lanes of too few rows with the last one.
+template <int K, class Rows>
+inline int cull_few(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
+  int here[Floats::lanes], kept[Floats::lanes];
+  for (int l = 0; l < Floats::lanes; ++l) here[l] = rows[l < count ? l : count - 1];
+  const int survivors =
+      write_survivors(cull_lanes<K>(pairs, Listed{here}, refined), Listed{here}, (1 << count) - 1, kept);
+  for (int l = 0; l < survivors; ++l) out[l] = kept[l];
   return survivors;
 }
 
-// Fills the lanes of fewer than eight rows with the last one.
-template <int K, class Rows>
-inline int cull_few(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
-  int here[8];
-  for (int l = 0; l < 8; ++l) here[l] = rows[l < count ? l : count - 1];
-  return write_survivors(cull_eight<K>(pairs, Listed{here}, refined), Listed{here}, count, out);
-}
-
-// `out` may be the list of rows itself: it is written behind what is read.
+// `out` may be the list of rows itself: no pack is written beyond what was read.
 template <int K, class Rows>
 inline int cull_rows(const KernelPairs& pairs, Rows rows, int count, bool refined, int* out) {
   int survivors = 0, first = 0;
-  for (; first + 8 <= count; first += 8) {
+  for (; first + Floats::lanes <= count; first += Floats::lanes) {
     const Rows here = rows.from(first);
-    survivors += write_survivors(cull_eight<K>(pairs, here, refined), here, 8, out + survivors);
+    survivors += write_survivors(cull_lanes<K>(pairs, here, refined), here, kAllFloats, out + survivors);
   }
   if (first == count) return survivors;
   return survivors + cull_few<K>(pairs, rows.from(first), count - first, refined, out + survivors);

@@ -5,11 +5,11 @@
 template <class V>
 struct Thresholds;  // smallest and largest square that may be normalised without under- or overflow
 template <>
-struct Thresholds<D4> {
+struct Thresholds<Doubles> {
   static constexpr double tiny = 0x1p-900, huge = 0x1p900;
 };
 template <>
-struct Thresholds<F8> {
+struct Thresholds<Floats> {
   static constexpr float tiny = 0x1p-100f, huge = 0x1p100f;
 };
 

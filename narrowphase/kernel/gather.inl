@@ -7,12 +7,12 @@ struct Points {
 
 // Lane l holds the pair rows[l].
 template <class Rows>
-inline void gather(const KernelPairs& pairs, const Rows& rows, Points<D4>& out) {
+inline void gather(const KernelPairs& pairs, const Rows& rows, Points<Doubles>& out) {
   for (int i = 0; i < 4; ++i) {
-    const double* v[4];
-    for (int l = 0; l < 4; ++l) v[l] = pairs.x + static_cast<long long>(pairs.vertices[rows[l]][i]) * 8;
-    for (int end = 0; end < 2; ++end)
-      transpose(v[0] + 4 * end, v[1] + 4 * end, v[2] + 4 * end, v[3] + 4 * end, out.p[end][i]);
+    const double* v[Doubles::lanes];
+    for (int l = 0; l < Doubles::lanes; ++l)
+      v[l] = pairs.x + static_cast<long long>(pairs.vertices[rows[l]][i]) * 8;
+    for (int end = 0; end < 2; ++end) transpose(v, 4 * end, out.p[end][i]);
   }
 }
 

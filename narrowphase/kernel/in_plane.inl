@@ -18,18 +18,18 @@ struct RelativeInPlane {
   V scale;
 };
 
-inline void set_relative_in_plane(const KernelPairs& pairs, const int* rows, RelativeInPlane<D4>& r) {
-  Points<D4> p;
+inline void set_relative_in_plane(const KernelPairs& pairs, const int* rows, RelativeInPlane<Doubles>& r) {
+  Points<Doubles> p;
   gather(pairs, rows, p);
-  D4 largest = zero<D4>();
+  Doubles largest = zero<Doubles>();
   for (int end = 0; end < 2; ++end)
     for (int i = 0; i < 2; ++i) {
-      const D4(&x)[4][3] = p.p[end];
+      const Doubles(&x)[4][3] = p.p[end];
       r.q[end][i] = x[0][i] - x[1][i];
       r.e[end][i] = x[2][i] - x[1][i];
       largest = max(max(abs(r.q[end][i]), abs(r.e[end][i])), largest);
     }
-  const D4 scale = r.scale = inverse_power_of_two(largest);
+  const Doubles scale = r.scale = inverse_power_of_two(largest);
   for (int end = 0; end < 2; ++end)
     for (int i = 0; i < 2; ++i) {
       r.q[end][i] = r.q[end][i] * scale;
@@ -73,9 +73,9 @@ inline void guess_root(const V (&g)[3], V t, V& root, V& slope) {
   root = min(max(at, zero<V>()), one<V>());
 }
 
-// Returns the time by which four pairs, apart before t, have certainly touched; 2: not certain.
-inline D4 touched_by_in_plane(const KernelPairs& pairs, const int* rows, D4 t) {
-  using V = D4;
+// Returns the time by which pairs, one a lane, apart before t, have certainly touched; 2: not certain.
+inline Doubles touched_by_in_plane(const KernelPairs& pairs, const int* rows, Doubles t) {
+  using V = Doubles;
   RelativeInPlane<V> r;
   set_relative_in_plane(pairs, rows, r);
   const V two = V::all(2);
@@ -105,7 +105,7 @@ inline D4 touched_by_in_plane(const KernelPairs& pairs, const int* rows, D4 t) {
 }
 
 inline void certify_in_plane(const KernelPairs& pairs, const int* subset, int count, KernelResult* results) {
-  certify_contacts(pairs, subset, count, results, [](const KernelPairs& p, const int* rows, D4 t) {
+  certify_contacts(pairs, subset, count, results, [](const KernelPairs& p, const int* rows, Doubles t) {
     return touched_by_in_plane(p, rows, t);
   });
 }
@@ -148,11 +148,11 @@ inline void geometry_in_plane(const RelativeInPlane<V>& r, V t, Geometry<V>& f) 
 }
 
 inline void contact_geometry_in_plane(const KernelPairs& pairs, const double* t, KernelContact* contacts) {
-  using V = D4;
-  for (int first = 0; first < pairs.count; first += 4) {
-    int rows[4];
-    double times[4], u[4], n[2][4], gap[4], speed[4], unit[4];
-    for (int l = 0; l < 4; ++l) {
+  using V = Doubles;
+  for (int first = 0; first < pairs.count; first += V::lanes) {
+    int rows[V::lanes];
+    double times[V::lanes], u[V::lanes], n[2][V::lanes], gap[V::lanes], speed[V::lanes], unit[V::lanes];
+    for (int l = 0; l < V::lanes; ++l) {
       rows[l] = first + l < pairs.count ? first + l : pairs.count - 1;
       times[l] = t[rows[l]];
     }
@@ -164,7 +164,7 @@ inline void contact_geometry_in_plane(const KernelPairs& pairs, const double* t,
     (one<V>() / r.scale).store(unit);
     for (int i = 0; i < 2; ++i) f.normal[i].store(n[i]);
     const int ordinary = bits(f.ordinary);
-    for (int l = 0; l < 4 && first + l < pairs.count; ++l) {
+    for (int l = 0; l < V::lanes && first + l < pairs.count; ++l) {
       KernelContact& out = contacts[first + l];
       out.ordinary = ordinary >> l & 1;
       out.weight[0] = 1, out.weight[1] = -(1 - u[l]), out.weight[2] = -u[l], out.weight[3] = 0;

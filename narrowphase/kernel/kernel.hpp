@@ -113,5 +113,8 @@ const KernelTable& scalar_kernels();
 #ifdef ONSET_HAVE_AVX2
 const KernelTable& avx2_kernels();
 #endif
+#ifdef ONSET_HAVE_AVX512
+const KernelTable& avx512_kernels();
+#endif
 
 }  // namespace onset

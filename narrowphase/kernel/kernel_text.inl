@@ -1,4 +1,5 @@
-// The whole kernel text in the order it builds up, included by kernel_scalar.cpp and kernel_avx2.cpp.
+// The whole kernel text in the order it builds up, included by kernel_scalar.cpp, kernel_avx2.cpp and
+// kernel_avx512.cpp.
 #include "base/simd/pack.hpp"
 #include "narrowphase/kernel/kernel.hpp"
 

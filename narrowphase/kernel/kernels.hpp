@@ -7,10 +7,14 @@
 namespace onset {
 
 inline const KernelTable& kernels_for(InstructionSet requested) {
-#ifdef ONSET_HAVE_AVX2
-  if (resolve_instruction_set(requested) == InstructionSet::avx2) return avx2_kernels();
+  const InstructionSet set = resolve_instruction_set(requested);
+#ifdef ONSET_HAVE_AVX512
+  if (set == InstructionSet::avx512) return avx512_kernels();
 #endif
-  (void)requested;
+#ifdef ONSET_HAVE_AVX2
+  if (set == InstructionSet::avx2) return avx2_kernels();
+#endif
+  (void)set;
   return scalar_kernels();
 }
 

@@ -14,7 +14,7 @@ struct State {
   V slow, checks;
 };
 template <int K>
-constexpr int kFields = sizeof(State<D4, K>) / (4 * sizeof(double));
+constexpr int kFields = sizeof(State<Doubles, K>) / sizeof(Doubles);
 
 template <class V>
 inline V norm_factor(const V (&w)[3],
@@ -78,8 +78,8 @@ inline void set_cubic(State<V, K>& s, const V (&e1)[2][3], const V (&e2)[2][3], 
 }
 
 template <int K>
-inline void set_up(const KernelPairs& pairs, const int* rows, State<D4, K>& s) {
-  using V = D4;
+inline void set_up(const KernelPairs& pairs, const int* rows, State<Doubles, K>& s) {
+  using V = Doubles;
   Points<V> p;
   gather(pairs, rows, p);
   V e1[2][3], e2[2][3];
@@ -105,8 +105,8 @@ inline void set_up(const KernelPairs& pairs, const int* rows, State<D4, K>& s) {
   // square to the edge, which has one product with all corners too.
   if (pairs.in_plane)
     for (V(&axis)[3] : e1) axis[0] = axis[1] = zero<V>(), axis[2] = one<V>();
-  double d[4];
-  for (int l = 0; l < 4; ++l) d[l] = pairs.separation[rows[l]];
+  double d[Doubles::lanes];
+  for (int l = 0; l < Doubles::lanes; ++l) d[l] = pairs.separation[rows[l]];
   s.d = V::load(d) * scale;
   s.delta = min(V::all(pairs.tolerance) * scale, V::all(pairs.sharpest));
   s.unit = one<V>() / scale;

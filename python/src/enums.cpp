@@ -86,7 +86,8 @@ void bind_choices(nb::module_& m) {
   Enumeration<InstructionSet>(m, "InstructionSet")
       .add("automatic", InstructionSet::automatic)
       .add("scalar", InstructionSet::scalar)
-      .add("avx2", InstructionSet::avx2);
+      .add("avx2", InstructionSet::avx2)
+      .add("avx512", InstructionSet::avx512);
   Enumeration<Exactness>(m, "Exactness")
       .add("conservative", Exactness::conservative)
       .add("certify", Exactness::certify)

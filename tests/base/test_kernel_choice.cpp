@@ -35,7 +35,9 @@ std::string chosen() {
 int main(int, char** argv) {
   const std::string word = argv[1];
   if (word == "none") unsetenv("ONSET_KERNEL");
-  const bool avx2 = onset::has_avx2();
+  const bool avx2 = onset::has_avx2(), avx512 = onset::has_avx512();
+  check(avx2 || !avx512, "no AVX-512 without AVX2");
+  check(avx512 || !onset::prefers_avx512(), "nothing is preferred that is not there");
   check(onset::resolve_instruction_set(InstructionSet::scalar) == InstructionSet::scalar,
         "scalar on request");
   const std::string first = chosen();
@@ -43,11 +45,14 @@ int main(int, char** argv) {
     check(first == "scalar", "scalar by the environment");
   else if (word == "sse9")
     check(first.find("sse9") != std::string::npos, "another word throws and is named");
-  else if (word == "avx2" && !avx2)
-    check(first.find("not supported") != std::string::npos, "a set that is not there throws");
+  else if ((word == "avx2" && !avx2) || (word == "avx512" && !avx512))
+    check(first.find(word + ": not supported") != std::string::npos, "a set that is not there throws");
+  else if (word == "avx2" || word == "avx512")
+    check(first == word, "by the environment");
   else
-    check(first == (avx2 ? "avx2" : "scalar"), "the best that there is");
+    check(first == (onset::prefers_avx512() ? "avx512" : avx2 ? "avx2" : "scalar"), "the best that there is");
   check(std::string(onset::to_string(InstructionSet::avx2)) == "avx2", "its name");
+  check(std::string(onset::to_string(InstructionSet::avx512)) == "avx512", "its name");
   check(std::string(onset::to_string(InstructionSet::automatic)) == "automatic",
         "the name of what is not chosen yet");
   try {

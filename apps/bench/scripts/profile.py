@@ -24,7 +24,7 @@ STAGES = {
         r"[Ss]earch|Interval|on_grid|bracket_of|scalbn|ilogb|"
         r"NarrowPhase::sharpen|PairDecision::|PairResult",
     "culls": r"cull|round_(positions|row)|NarrowPhase::(gather|process|prepare)",
-    "advancement": r"(avx2|scalar)::.*(advance|set_cubic|gather|direction|maximum_norm)",
+    "advancement": r"(avx512|avx2|scalar)::.*(advance|set_cubic|gather|direction|maximum_norm)",
     "boxes and tree":
         r"fit_|BoxTree|order_|_order|hilbert|make_supports|make_motion|finish_motion|motion_box|FloatMap|sort_range|Keyed|roughness|"
         r"largest_swept|[Ee]xtents|StepSetup::|StaticTrees|StaticMotion|count_filtered|make_keys",

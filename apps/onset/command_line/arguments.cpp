@@ -73,7 +73,7 @@ void add_common_options(CLI::App& command, Arguments& a, const std::string& csv_
              "How pairs are found");
   add_choice(command, "--narrow-phase", a.narrow_phase, {"auto", "inclusion"},
              "How pairs are decided; inclusion: by the paper's root finder alone");
-  add_choice(command, "--kernel", a.kernel, {"auto", "scalar", "avx2"},
+  add_choice(command, "--kernel", a.kernel, {"auto", "scalar", "avx2", "avx512"},
              "Instruction set. The result is the same");
   add_choice(command, "--certainty", a.certainty, {"conservative", "certify", "exact"},
              "How far to tell real contacts from those within the tolerance; exact: until it is known");
@@ -92,7 +92,8 @@ onset::Options to_options(const Arguments& a) {
   static const std::map<std::string, onset::InstructionSet> kernels = {
       {"auto", onset::InstructionSet::automatic},
       {"scalar", onset::InstructionSet::scalar},
-      {"avx2", onset::InstructionSet::avx2}};
+      {"avx2", onset::InstructionSet::avx2},
+      {"avx512", onset::InstructionSet::avx512}};
   static const std::map<std::string, onset::Exactness> levels = {
       {"conservative", onset::Exactness::conservative},
       {"certify", onset::Exactness::certify},

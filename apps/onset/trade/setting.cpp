@@ -140,9 +140,10 @@ const char* word(BroadPhaseMethod m) {
                                         : "BroadPhaseMethod::automatic";
 }
 const char* word(InstructionSet k) {
-  return k == InstructionSet::scalar ? "InstructionSet::scalar"
-         : k == InstructionSet::avx2 ? "InstructionSet::avx2"
-                                     : "InstructionSet::automatic";
+  return k == InstructionSet::scalar   ? "InstructionSet::scalar"
+         : k == InstructionSet::avx2   ? "InstructionSet::avx2"
+         : k == InstructionSet::avx512 ? "InstructionSet::avx512"
+                                       : "InstructionSet::automatic";
 }
 const char* word(Exactness c) {
   return c == Exactness::exact     ? "Exactness::exact"

@@ -56,7 +56,7 @@ def add_running(parser):
     group.add_argument("--threads", type=values.whole(0, 4096), metavar="COUNT", help="at most COUNT; 0: all cores. The result is the same [0]")
     group.add_argument("--broad-phase", choices=["auto", "bvh", "hash", "brute"], help="how pairs are found")
     group.add_argument("--narrow-phase", choices=["auto", "inclusion"], help="how pairs are decided; inclusion: by the paper's root finder alone")
-    group.add_argument("--kernel", dest="instruction_set", choices=["auto", "scalar", "avx2"], help="instruction set. The result is the same")
+    group.add_argument("--kernel", dest="instruction_set", choices=["auto", "scalar", "avx2", "avx512"], help="instruction set. The result is the same")
 
 
 def add_bodies(parser):

@@ -1,4 +1,4 @@
-// Packs of plain arrays and packs of AVX2 registers are the same for every input.
+// Packs of plain arrays and packs of AVX2 and AVX-512 registers are the same for every input.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -72,29 +72,36 @@ bool same(const T (&a)[N][Lanes], const T (&b)[N][Lanes], bool any_nan) {
   return true;
 }
 
-}  // namespace
-
-TEST_CASE("pack operations give the same bits on both instruction sets", "[simd][property]") {
-  if (!has_avx2()) return;
+void compare(PackResults (*operations)(const PackInputs&)) {
   Random random(71);
   for (int i = 0; i < fuzz(200000); ++i) {
     PackInputs in;
     for (double* p : {in.a, in.b, in.c})
-      for (int l = 0; l < 4; ++l) p[l] = some_value<double>(random);
+      for (int l = 0; l < kDoubles; ++l) p[l] = some_value<double>(random);
     for (float* p : {in.x, in.y, in.z})
-      for (int l = 0; l < 8; ++l) p[l] = some_value<float>(random);
-    const PackResults s = pack_operations_scalar(in), v = pack_operations_avx2(in);
+      for (int l = 0; l < kFloats; ++l) p[l] = some_value<float>(random);
+    const PackResults s = pack_operations_scalar(in), v = operations(in);
     if (!same(s.arithmetic_d, v.arithmetic_d, true) || !same(s.arithmetic_f, v.arithmetic_f, true) ||
         !same(s.exact_d, v.exact_d, false) || !same(s.exact_f, v.exact_f, false) ||
-        std::memcmp(s.masks, v.masks, sizeof s.masks) != 0)
+        std::memcmp(s.masks, v.masks, sizeof s.masks) != 0 || s.compressed_count != v.compressed_count ||
+        std::memcmp(s.compressed, v.compressed, sizeof s.compressed) != 0)
       FAIL_CHECK("inputs " << i);
   }
+}
+
+}  // namespace
+
+TEST_CASE("pack operations give the same bits on every instruction set", "[simd][property]") {
+  if (has_avx2()) compare(pack_operations_avx2);
+#ifdef ONSET_HAVE_AVX512
+  if (has_avx512()) compare(pack_operations_avx512);
+#endif
 }
 
 // What the comments in base/simd/pack.hpp promise.
 TEST_CASE("min and max give their second operand on a tie or NaN", "[simd]") {
   PackInputs in{};
-  const double a[4] = {0.0, -0.0, NAN, 1}, b[4] = {-0.0, 0.0, 1, NAN};
+  const double a[kDoubles] = {0.0, -0.0, NAN, 1}, b[kDoubles] = {-0.0, 0.0, 1, NAN};
   std::memcpy(in.a, a, sizeof a);
   std::memcpy(in.b, b, sizeof b);
   const PackResults s = pack_operations_scalar(in);
@@ -110,7 +117,7 @@ TEST_CASE("the power of two brings a value into [1, 2)", "[unit]") {
     PackInputs in{};
     for (double& x : in.a) x = std::ldexp(1 + scenes::unit(random), scenes::integer(random, -1022, 1022));
     const PackResults r = pack_operations_scalar(in);
-    for (int l = 0; l < 4; ++l) {
+    for (int l = 0; l < kDoubles; ++l) {
       const double scaled = in.a[l] * r.exact_d[5][l];
       CHECK(scaled >= 1);
       CHECK(scaled < 2);

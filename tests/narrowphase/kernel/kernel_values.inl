@@ -7,12 +7,12 @@ namespace onset {
 namespace ONSET_ISA {
 namespace {
 
-double first(const D4& v) {
+double first(const Doubles& v) {
   double lanes[4];
   v.store(lanes);
   return lanes[0];
 }
-float first(const F8& v) {
+float first(const Floats& v) {
   float lanes[8];
   v.store(lanes);
   return lanes[0];
@@ -21,7 +21,7 @@ float first(const F8& v) {
 template <int K>
 void double_values(const KernelPairs& pairs, int row, const tests::ValuesWanted& in,
                    tests::KernelValues& out) {
-  using V = D4;
+  using V = Doubles;
   const int rows[4] = {row, row, row, row};
   State<V, K> s;
   set_up(pairs, rows, s);
@@ -51,7 +51,7 @@ void double_values(const KernelPairs& pairs, int row, const tests::ValuesWanted&
 template <int K>
 void float_values(const KernelPairs& pairs, int row, const tests::ValuesWanted& in,
                   tests::KernelValues& out) {
-  using V = F8;
+  using V = Floats;
   const int rows[8] = {row, row, row, row, row, row, row, row};
   FloatPairs<K> s;
   if (pairs.rounded != nullptr)
@@ -60,8 +60,8 @@ void float_values(const KernelPairs& pairs, int row, const tests::ValuesWanted& 
     float_corners(pairs, Listed{rows}, s);
   V w[3], wb[3], middle[3];
   for (int a = 0; a < 3; ++a) {
-    w[a] = to_float(D4::all(in.w[a]), D4::all(in.w[a]));
-    wb[a] = to_float(D4::all(in.wb[a]), D4::all(in.wb[a]));
+    w[a] = to_float(Doubles::all(in.w[a]), Doubles::all(in.w[a]));
+    wb[a] = to_float(Doubles::all(in.wb[a]), Doubles::all(in.wb[a]));
     out.wf[a] = first(w[a]), out.wbf[a] = first(wb[a]);
   }
   out.f_bound = first(s.error);
@@ -77,7 +77,7 @@ void float_values(const KernelPairs& pairs, int row, const tests::ValuesWanted& 
 
 template <int K>
 tests::Certificates certificates(const KernelPairs& pairs, int row, const tests::CertificateState& in) {
-  using V = D4;
+  using V = Doubles;
   const int rows[4] = {row, row, row, row};
   State<V, K> s;
   set_up(pairs, rows, s);
@@ -96,7 +96,7 @@ tests::Certificates certificates(const KernelPairs& pairs, int row, const tests:
 // As in touched_by.
 template <int K>
 tests::ContactValues contact(const KernelPairs& pairs, int row, double time, double width) {
-  using V = D4;
+  using V = Doubles;
   const int rows[4] = {row, row, row, row};
   RelativeMotion<V> r;
   set_relative<K>(pairs, rows, r);

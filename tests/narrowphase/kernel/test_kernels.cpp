@@ -1,4 +1,4 @@
-// The scalar and the AVX2 copy of the kernel text give the same bytes.
+// The copies of the kernel text for AVX2 and AVX-512 give the bytes of the scalar one.
 #include <cstring>
 #include <numeric>
 
@@ -9,14 +9,14 @@
 #include "tests/narrowphase/samples.hpp"
 #include "tests/queries/random_query.hpp"
 
-#ifdef ONSET_HAVE_AVX2
-
 using namespace onset;
 using namespace onset::tests;
 using scenes::Query;
 using scenes::Random;
 
 namespace {
+
+constexpr int kMostLanes = 16;  // of any pack
 
 bool same(double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; }
 
@@ -62,12 +62,13 @@ std::vector<KernelResume> resumed(const std::vector<KernelResult>& results) {
   return resume;
 }
 
-void compare_frames(const KernelBatch& batch, const KernelPairs& pairs, const std::vector<KernelResult>& at) {
+void compare_frames(const KernelTable& other, const KernelBatch& batch, const KernelPairs& pairs,
+                    const std::vector<KernelResult>& at) {
   std::vector<double> t;
   for (const KernelResult& r : at) t.push_back(std::min(r.t, 1.0));
   std::vector<KernelContact> a(t.size()), b(t.size());
   scalar_kernels().of_kind[int(batch.kind())].contact_geometry(pairs, t.data(), a.data());
-  avx2_kernels().of_kind[int(batch.kind())].contact_geometry(pairs, t.data(), b.data());
+  other.of_kind[int(batch.kind())].contact_geometry(pairs, t.data(), b.data());
   for (std::size_t i = 0; i < t.size(); ++i) {
     bool equal = a[i].ordinary == b[i].ordinary;
     if (a[i].ordinary) {
@@ -79,8 +80,8 @@ void compare_frames(const KernelBatch& batch, const KernelPairs& pairs, const st
   }
 }
 
-void compare_copies(const KernelBatch& batch, const KernelPairs& pairs) {
-  const KernelTable &one = scalar_kernels(), &other = avx2_kernels();
+void compare_copies(const KernelTable& other, const KernelBatch& batch, const KernelPairs& pairs) {
+  const KernelTable& one = scalar_kernels();
   const std::vector<int> kept = culled(one, batch.kind(), pairs);
   if (kept != culled(other, batch.kind(), pairs)) FAIL_CHECK("the culls differ");
   std::vector<int> all(std::size_t(pairs.count));
@@ -90,7 +91,7 @@ void compare_copies(const KernelBatch& batch, const KernelPairs& pairs) {
   const auto resume = resumed(a);
   expect_same(advanced(one, batch.kind(), pairs, all, resume.data()),
               advanced(other, batch.kind(), pairs, all, resume.data()));
-  compare_frames(batch, pairs, a);
+  compare_frames(other, batch, pairs, a);
   for (int row = 0; row < pairs.count; ++row) {
     double v[3], w[3];
     one.of_kind[int(batch.kind())].closest_direction(pairs, row, a[std::size_t(row)].t, v);
@@ -114,10 +115,7 @@ KernelBatch mixed_batch(PairKind kind, int count, Random& random) {
   return batch;
 }
 
-}  // namespace
-
-TEST_CASE("scalar and AVX2 kernels give the same bytes for any pair", "[simd][property]") {
-  if (!has_avx2()) return;
+void compare_any_pairs(const KernelTable& table) {
   for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     Random random(61);
     for (int i = 0; i < fuzz(600); ++i) {
@@ -129,24 +127,23 @@ TEST_CASE("scalar and AVX2 kernels give the same bytes for any pair", "[simd][pr
       if (scenes::coin(random))
         pairs.gap_share = scenes::unit(random), pairs.storing = scenes::power_of_ten(random, -16, -2),
         pairs.cull_beyond = kStoredRoundings * pairs.storing;
-      compare_copies(batch, pairs);
+      compare_copies(table, batch, pairs);
     }
   }
 }
 
-TEST_CASE("batches of 1 to 17 pairs give the same bytes, and the same as one by one", "[simd]") {
-  if (!has_avx2()) return;
+void compare_small_batches(const KernelTable& table) {
   for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge}) {
     Random random(62);
-    for (int count = 1; count <= 17; ++count)
+    for (int count = 1; count <= 2 * kMostLanes + 1; ++count)
       for (int i = 0; i < fuzz(10); ++i) {
         const KernelBatch batch = mixed_batch(kind, count, random);
         const KernelPairs pairs = batch.pairs(1e-6);
-        compare_copies(batch, pairs);
+        compare_copies(table, batch, pairs);
         std::vector<int> all(std::size_t(count), 0);
         std::iota(all.begin(), all.end(), 0);
-        const auto together = advanced(avx2_kernels(), kind, pairs, all);
-        const auto kept = culled(avx2_kernels(), kind, pairs);
+        const auto together = advanced(table, kind, pairs, all);
+        const auto kept = culled(table, kind, pairs);
         for (int row = 0; row < count; ++row) {
           expect_same({together[std::size_t(row)]}, advanced(scalar_kernels(), kind, pairs, {row}));
           KernelPairs alone = pairs;
@@ -159,34 +156,67 @@ TEST_CASE("batches of 1 to 17 pairs give the same bytes, and the same as one by 
 }
 
 // Nothing of a non-finite pair may leak into its neighbours in the lanes.
-TEST_CASE("a pair with NaN or infinity leaves the others of its batch alone", "[simd]") {
-  if (!has_avx2()) return;
+void spoil_one_lane(const KernelTable& table) {
+  constexpr int kPairs = kMostLanes + 1;
   Random random(63);
   const double bad[] = {NAN, INFINITY, -INFINITY, 0x1p1023};
   for (PairKind kind : {PairKind::vertex_face, PairKind::edge_edge})
     for (int i = 0; i < fuzz(40); ++i) {
       std::vector<Query> queries;
-      for (int k = 0; k < 9; ++k) queries.push_back(scenes::mixed_query(kind, random));
-      const int spoiled = scenes::integer(random, 0, 8);
+      for (int k = 0; k < kPairs; ++k) queries.push_back(scenes::mixed_query(kind, random));
+      const int spoiled = scenes::integer(random, 0, kPairs - 1);
       KernelBatch clean(kind), dirty(kind);
-      for (int k = 0; k < 9; ++k) {
+      for (int k = 0; k < kPairs; ++k) {
         clean.add(queries[std::size_t(k)], 0);
         Query q = queries[std::size_t(k)];
         if (k == spoiled)
           q.t1[std::size_t(scenes::integer(random, 0, 3))][1] = bad[scenes::integer(random, 0, 3)];
         dirty.add(q, 0);
       }
-      std::vector<int> all(9);
+      std::vector<int> all(kPairs);
       std::iota(all.begin(), all.end(), 0);
-      for (const KernelTable* table : {&scalar_kernels(), &avx2_kernels()}) {
-        const auto a = advanced(*table, kind, clean.pairs(1e-6), all),
-                   b = advanced(*table, kind, dirty.pairs(1e-6), all);
-        for (int k = 0; k < 9; ++k)
-          if (k != spoiled) expect_same({a[std::size_t(k)]}, {b[std::size_t(k)]});
-      }
+      const auto a = advanced(table, kind, clean.pairs(1e-6), all),
+                 b = advanced(table, kind, dirty.pairs(1e-6), all);
+      for (int k = 0; k < kPairs; ++k)
+        if (k != spoiled) expect_same({a[std::size_t(k)]}, {b[std::size_t(k)]});
     }
 }
 
-#else
-TEST_CASE("this build has one copy of the kernels", "[simd]") { SUCCEED(); }
+const KernelTable* avx2() {
+#ifdef ONSET_HAVE_AVX2
+  if (has_avx2()) return &avx2_kernels();
 #endif
+  WARN("skipped: no AVX2 here");
+  return nullptr;
+}
+const KernelTable* avx512() {
+#ifdef ONSET_HAVE_AVX512
+  if (has_avx512()) return &avx512_kernels();
+#endif
+  WARN("skipped: no AVX-512 here");
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("scalar and AVX2 kernels give the same bytes for any pair", "[simd][property]") {
+  if (const KernelTable* table = avx2()) compare_any_pairs(*table);
+}
+TEST_CASE("small batches give the same bytes with AVX2, and the same as one by one", "[simd]") {
+  if (const KernelTable* table = avx2()) compare_small_batches(*table);
+}
+TEST_CASE("a pair with NaN or infinity leaves the others of its batch alone", "[simd]") {
+  spoil_one_lane(scalar_kernels());
+  if (const KernelTable* table = avx2()) spoil_one_lane(*table);
+}
+
+// By a test of their own, which says that it is skipped where the machine has no AVX-512.
+TEST_CASE("scalar and AVX-512 kernels give the same bytes for any pair", "[.avx512]") {
+  if (const KernelTable* table = avx512()) compare_any_pairs(*table);
+}
+TEST_CASE("small batches give the same bytes with AVX-512, and the same as one by one", "[.avx512]") {
+  if (const KernelTable* table = avx512()) compare_small_batches(*table);
+}
+TEST_CASE("a pair with NaN or infinity leaves the others of its AVX-512 batch alone", "[.avx512]") {
+  if (const KernelTable* table = avx512()) spoil_one_lane(*table);
+}
