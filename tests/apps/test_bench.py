@@ -37,6 +37,16 @@ class Bench(AppTest):
                 spread = scene[call][clock]
                 self.assertTrue(0 < spread["min"] <= spread["median"] <= spread["max"])
 
+    def test_kernels_in_turns(self):
+        scene, = self.scenes("--cloth", "1000", "--kernels", "2")
+        sets = [kernel["instruction_set"] for kernel in scene["kernels"]]
+        self.assertEqual(sets, ["scalar", "avx2", "avx512"][:len(sets)])
+        for kernel in scene["kernels"]:
+            for call in ["active_set", "step"]:
+                self.assertGreater(kernel[call]["cpu"]["min"], 0)
+                self.assertGreater(kernel[call]["times"]["min"], 0)
+        self.assertEqual(scene["kernels"][0]["step"]["times"]["max"], 1)
+
     def test_first_runs_timed(self):
         first, = self.json("bench", "--cloth", "1000", "--repeats", "0")["scenes"]
         later, = self.scenes("--cloth", "1000")

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "onset/bench/kernel_bench.hpp"
 #include "onset/bench/loop_bench.hpp"
 #include "onset/bench/scene_bench.hpp"
 #include "onset/results/outputs.hpp"
@@ -17,6 +18,7 @@ struct NamedCost {
   std::ptrdiff_t vertices, edges, faces;
   SceneCost cost;
   std::optional<LoopCost> loop;
+  std::vector<KernelCost> kernels;
 
   std::ptrdiff_t primitives() const { return vertices + edges + faces; }
 };

@@ -6,6 +6,7 @@
 #include "files/error.hpp"
 #include "onset/bench/bench_report.hpp"
 #include "onset/bench/generated.hpp"
+#include "onset/bench/kernel_bench.hpp"
 #include "onset/bench/loop_bench.hpp"
 #include "onset/command_line/arguments.hpp"
 #include "onset/command_line/bodies.hpp"
@@ -23,7 +24,7 @@ struct Inputs : Arguments {
   bool weld = false;
   std::vector<std::string> planes;
   LoopSettings loop{0, 1, 0.005, 0};
-  int pause_mebibytes = 0;
+  int pause_mebibytes = 0, kernel_rounds = 0;
 };
 
 Faces faces_of(const onset::Mesh& mesh) {
@@ -59,8 +60,10 @@ NamedCost bench(const std::string& name, const Scene& scene, const onset::Option
                  scene.mesh.num_edges(),
                  scene.mesh.num_faces(),
                  bench_scene(scene, options, inputs.repeats),
+                 {},
                  {}};
   if (inputs.loop.calls > 0) cost.loop = bench_loop(scene, options, inputs.loop);
+  if (inputs.kernel_rounds > 0) cost.kernels = bench_kernels(scene, options, inputs.kernel_rounds);
   return cost;
 }
 
@@ -108,6 +111,10 @@ void run_bench(const Inputs& inputs) {
   for (const NamedCost& cost : costs) {
     json["scenes"].push_back(cost_json(cost));
     text += describe(cost, inputs.repeats);
+    if (!cost.kernels.empty()) {
+      json["scenes"].back()["kernels"] = kernels_json(cost.kernels);
+      text += describe(cost.kernels);
+    }
     if (!cost.loop) continue;
     json["scenes"].back()["loop"] = loop_json(*cost.loop, inputs.loop);
     text += describe(*cost.loop, inputs.loop);
@@ -149,6 +156,9 @@ void add_bench(CLI::App& app, Run& run) {
       ->check(CLI::Range(0.0, 1.0));
   add_whole(*command, "--pause", inputs->pause_mebibytes, "MIB",
             "Of --loop: memory that is touched between calls, so that no cache is warm [0]", 0, 4096);
+  add_whole(*command, "--kernels", inputs->kernel_rounds, "COUNT",
+            "Also so many calls with each instruction set that this machine has, in turns; 0: none [0]", 0,
+            100000);
   add_weld(*command, inputs->weld);
   add_planes(*command, inputs->planes);
   add_common_options(*command, *inputs, "one row a scene, its size and the cost of the active set");
