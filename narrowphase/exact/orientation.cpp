@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace onset {
 namespace {
-
-// A number as a sum of doubles that do not overlap, smallest first (Shewchuk 1997).
-using Expansion = std::vector<double>;
 
 void two_sum(double a, double b, double& sum, double& error) {
   sum = a + b;
@@ -30,39 +26,51 @@ void two_product(double a, double b, double& product, double& error) {
   error = al * bl - (((product - ah * bh) - al * bh) - ah * bl);
 }
 
-Expansion grown(const Expansion& e, double b) {
-  Expansion r;
-  double q = b, error;
-  for (double x : e) {
-    two_sum(q, x, q, error);
-    if (error != 0) r.push_back(error);
+// A number as a sum of at most N doubles that do not overlap, smallest first (Shewchuk 1997).
+template <int N>
+struct Expansion {
+  int size = 0;
+  double x[N];
+
+  void add(double b) {
+    int kept = 0;
+    double error;
+    for (int i = 0; i < size; ++i) {
+      two_sum(b, x[i], b, error);
+      if (error != 0) x[kept++] = error;
+    }
+    if (b != 0) x[kept++] = b;
+    size = kept;
   }
-  if (q != 0) r.push_back(q);
+  template <int A, int B>
+  void add_product(const Expansion<A>& a, const Expansion<B>& b, double sign) {
+    static_assert(2 * A * B <= N);
+    for (int i = 0; i < a.size; ++i)
+      for (int j = 0; j < b.size; ++j) {
+        double product, error;
+        two_product(sign * a.x[i], b.x[j], product, error);
+        add(error);
+        add(product);
+      }
+  }
+};
+
+Expansion<2> difference(double a, double b) {
+  double sum, error;
+  two_sum(a, -b, sum, error);
+  Expansion<2> r;
+  r.add(error);
+  r.add(sum);
   return r;
 }
 
-Expansion operator+(Expansion a, const Expansion& b) {
-  for (double x : b) a = grown(a, x);
-  return a;
-}
-Expansion operator-(const Expansion& a, Expansion b) {
-  for (double& x : b) x = -x;
-  return a + b;
-}
-Expansion operator*(const Expansion& a, const Expansion& b) {
-  Expansion r;
-  for (double x : a)
-    for (double y : b) {
-      double product, error;
-      two_product(x, y, product, error);
-      r = grown(grown(r, error), product);
-    }
+// a d - b c.
+Expansion<16> minor(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
+                    const Expansion<2>& d) {
+  Expansion<16> r;
+  r.add_product(a, d, 1);
+  r.add_product(b, c, -1);
   return r;
-}
-Expansion difference(double a, double b) {
-  double sum, error;
-  two_sum(a, -b, sum, error);
-  return grown(grown({}, error), sum);
 }
 
 }  // namespace
@@ -79,13 +87,15 @@ int orientation(const double* a, const double* b, const double* c, const double*
   // The determinant's terms have bits down to (smallest * 2^-52)^3, above 2^-1022 (docs/theory.md, §19).
   if (smallest < largest * 0x1p-280) return kUnknownSide;
   const double scale = std::ldexp(1.0, -std::ilogb(largest));
-  Expansion m[3][3];
+  Expansion<2> m[3][3];
   for (int r = 0; r < 3; ++r)
     for (int i = 0; i < 3; ++i) m[r][i] = difference(rows[r][i] * scale, d[i] * scale);
-  const Expansion det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
-                        m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
-                        m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  return det.empty() ? 0 : det.back() > 0 ? 1 : -1;
+  Expansion<192> det;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    det.add_product(m[0][i], minor(m[1][j], m[1][k], m[2][j], m[2][k]), 1);
+  }
+  return det.size == 0 ? 0 : det.x[det.size - 1] > 0 ? 1 : -1;
 }
 
 }  // namespace onset
