@@ -26,6 +26,14 @@ class Bench(AppTest):
             self.assertGreater(few, 0)
             self.assertTrue(8 < many / few < 32, (stage, few, many))
 
+    def test_plates_that_rest(self):
+        apart, = self.scenes("--resting", "1000")
+        self.assertGreater(sum(apart["stats"]["contacts"].values()), 100)
+        within, = self.scenes("--resting", "1000", "--min-separation", "1e-4")
+        self.assertGreater(sum(within["stats"]["contacts"].values()), sum(apart["stats"]["contacts"].values()))
+        scalar, = self.scenes("--resting", "1000", "--min-separation", "1e-4", "--kernel", "scalar")
+        self.assertEqual((within["hash"], within["step_size"]), (scalar["hash"], scalar["step_size"]))
+
     def test_stages_and_costs(self):
         scene, = self.scenes("--cloth", "1000")
         stats = scene["stats"]

@@ -19,7 +19,7 @@ namespace {
 
 struct Inputs : Arguments {
   std::string a, b;
-  std::vector<std::int64_t> cloths;
+  std::vector<std::int64_t> cloths, plates;
   int repeats = 5, refine = 0;
   bool weld = false;
   std::vector<std::string> planes;
@@ -93,13 +93,16 @@ std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& opt
   for (const std::int64_t n : inputs.cloths)
     each_refinement(format("layered cloth, %lld triangles", static_cast<long long>(n)),
                     [&](int times) { return to_scene(refined(layered_cloth(n), times)); });
+  for (const std::int64_t n : inputs.plates)
+    each_refinement(format("resting plates, %lld triangles", static_cast<long long>(n)),
+                    [&](int times) { return to_scene(refined(resting_plates(n), times)); });
   return costs;
 }
 
 void run_bench(const Inputs& inputs) {
   const onset::Options options = to_options(inputs);
-  if (inputs.a.empty() == inputs.cloths.empty())
-    throw UsageError("bench: either two frames A and B or --cloth");
+  if (inputs.a.empty() == (inputs.cloths.empty() && inputs.plates.empty()))
+    throw UsageError("bench: either two frames A and B or --cloth or --resting");
   if (!inputs.a.empty() && inputs.b.empty()) throw UsageError("bench: B is missing");
   if (inputs.weld && (inputs.a.empty() || inputs.refine > 0))
     throw UsageError("bench: --weld is for the frames A and B as they are, not refined");
@@ -133,6 +136,12 @@ void add_bench(CLI::App& app, Run& run) {
   command
       ->add_option("--cloth", inputs->cloths,
                    "Instead of A and B, a generated scene of about COUNT triangles; several for a curve")
+      ->type_name("COUNT,...")
+      ->delimiter(',')
+      ->check(whole_numbers(4, 1'000'000'000));
+  command
+      ->add_option("--resting", inputs->plates,
+                   "The same of two flat sheets that lie on one another up to rounding")
       ->type_name("COUNT,...")
       ->delimiter(',')
       ->check(whole_numbers(4, 1'000'000'000));

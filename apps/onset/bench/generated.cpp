@@ -1,5 +1,6 @@
 #include "onset/bench/generated.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,6 +15,21 @@ constexpr double kGap = 1.5, kFall = 2.0, kSlide = 1.0;  // edge lengths
 constexpr double kRipple = 0.7;                          // height of the ripples, in edge lengths
 constexpr double kWave = 12.5;                           // their length, in edge lengths: no multiple of one
 constexpr std::int64_t kMostVertices = INT32_MAX;        // the library's ids are ints
+constexpr double kRise = 0.5;                            // of a plate's ripples at the end, in edge lengths
+
+// Two triangles a square of a grid of n x n, with alternating diagonals.
+void add_faces(Frames& frames, int n, Eigen::Index first_vertex, Eigen::Index first_face) {
+  const auto id = [&](int i, int j) {
+    return static_cast<long long>(first_vertex + Eigen::Index(i) * (n + 1) + j);
+  };
+  Eigen::Index f = first_face;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const bool other = (i + j) % 2;
+      frames.faces.row(f++) << id(i, j), id(i + 1, j), other ? id(i, j + 1) : id(i + 1, j + 1);
+      frames.faces.row(f++) << id(i, j + 1), other ? id(i + 1, j) : id(i, j), id(i + 1, j + 1);
+    }
+}
 
 // A grid of n x n squares of edge length 1 at height z; ripples run along a diagonal, those of odd sheets
 // across it.
@@ -27,16 +43,24 @@ void add_sheet(Frames& frames, int n, int sheet, Eigen::Index first_vertex, Eige
       frames.x_t0.row(v) = x / n;
       frames.x_t1.row(v) = (x + sheet * Eigen::RowVector3d(kSlide, 0.3 * kSlide, -kFall)) / n;
     }
-  const auto id = [&](int i, int j) {
-    return static_cast<long long>(first_vertex + Eigen::Index(i) * (n + 1) + j);
-  };
-  Eigen::Index f = first_face;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const bool other = (i + j) % 2;  // alternating diagonals
-      frames.faces.row(f++) << id(i, j), id(i + 1, j), other ? id(i, j + 1) : id(i + 1, j + 1);
-      frames.faces.row(f++) << id(i, j + 1), other ? id(i + 1, j) : id(i, j), id(i + 1, j + 1);
+  add_faces(frames, n, first_vertex, first_face);
+}
+
+// A flat grid, the second one shifted within the plane; ripples that grow in the step press the two on one
+// another in half of the area and part them in the other. Turned, both are flat up to rounding only.
+void add_plate(Frames& frames, int n, int plate, Eigen::Index first_vertex, Eigen::Index first_face) {
+  const Eigen::Matrix3d turned =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const double turn = 2 * std::acos(-1.0) / kWave;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      const Eigen::Vector3d x(i + 0.3 * plate, j + 0.2 * plate, 0);
+      const double up = plate * kRise * std::sin(turn * (0.6 * i + 0.8 * j));
+      const Eigen::Index v = first_vertex + Eigen::Index(i) * (n + 1) + j;
+      frames.x_t0.row(v) = (turned * x / n).transpose();
+      frames.x_t1.row(v) = (turned * (x + Eigen::Vector3d(0, 0, up)) / n).transpose();
     }
+  add_faces(frames, n, first_vertex, first_face);
 }
 
 void check_size(double vertices, std::int64_t asked) {
@@ -88,16 +112,20 @@ Frames divided(const Frames& frames) {
   return finer;
 }
 
-}  // namespace
-
-Frames layered_cloth(std::int64_t triangles) {
+template <class AddSheet>
+Frames two_sheets(std::int64_t triangles, const AddSheet& add) {
   const int n = std::max(1, int(std::lround(std::sqrt(double(triangles) / 4))));
   check_size(2.0 * (n + 1.0) * (n + 1.0), triangles);
   const Eigen::Index vertices = Eigen::Index(n + 1) * (n + 1), faces = Eigen::Index(2) * n * n;
   Frames frames{Points(2 * vertices, 3), Points(2 * vertices, 3), Faces(2 * faces, 3)};
-  for (int sheet = 0; sheet < 2; ++sheet) add_sheet(frames, n, sheet, sheet * vertices, sheet * faces);
+  for (int sheet = 0; sheet < 2; ++sheet) add(frames, n, sheet, sheet * vertices, sheet * faces);
   return frames;
 }
+
+}  // namespace
+
+Frames layered_cloth(std::int64_t triangles) { return two_sheets(triangles, add_sheet); }
+Frames resting_plates(std::int64_t triangles) { return two_sheets(triangles, add_plate); }
 
 Frames refined(Frames frames, int times) {
   for (int i = 0; i < times; ++i) {

@@ -18,6 +18,10 @@ struct Frames {
 // triangles.
 Frames layered_cloth(std::int64_t triangles);
 
+// Two flat sheets of about `triangles` triangles in all that lie on one another, up to rounding. In the step
+// ripples of the upper one press it on the lower one in half of the area and part the two in the other.
+Frames resting_plates(std::int64_t triangles);
+
 // Each triangle divided into four at the midpoints of its edges, `times` over, in both frames: the same
 // scene, finer.
 Frames refined(Frames frames, int times);
