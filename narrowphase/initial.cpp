@@ -10,6 +10,7 @@ namespace onset {
 namespace {
 
 constexpr int kHalvings = 24;
+constexpr double kMostHalved = 0x1p23;  // the shortest length that `latest` tries is one over this
 
 struct Hull {
   int count;
@@ -81,6 +82,46 @@ Vec dividing_direction(const Hull& from, const Hull& to, const Side& side, doubl
   return unit(total);
 }
 
+// Says whether no direction parts the pair at any time, since it touches within its primitives, up to noise,
+// and a corner goes through to the other side: part_from_noise then finds nothing, whatever it tries. False
+// where that is not plain.
+//
+// n would have n.h_k >= -20u rho for the corners h_k at t = 0 and n.c_k > 57u rho for those at a time s
+// (16 and 64, less 3.2u rho of a product, and 3u rho where corners are mixed). Weights b_k > 0 of sum 1 bring
+// the h_k to f: b_k n.h_k = n.f - sum_j b_j n.h_j, so that |n.h_k| <= m = 1.01 (|f| + 20u rho) / b with b the
+// least weight. So n is nearly square to two edges e_i of the hull, and what it has square to w, the plane's
+// normal, is at most r = (2m + 4u rho + k) (|e_1| + |e_2|) / |w.(e_1 x e_2)| for k the largest |w.e_i|. With
+// r <= 1/4 the rest of n is between 0.9 w and 1.01 w, to the side where the pair is. Of a corner g at t = 1
+// n.g > -m / s is wanted: s >= 2^-23, and where w.g to that side is below -1.2 (2^23 m + r |g|) it is not so.
+// Each length and product below errs by less than 16u of what it is made of.
+bool goes_through(const InitialCase& c, const Hull& here, const Side& side) {
+  if (side.sign != 1 && side.sign != -1) return false;
+  const bool edges = here.count == 4;
+  const Vec &w = side.normal, e1 = here.c[edges ? 2 : 1] - here.c[0], e2 = here.c[edges ? 1 : 2] - here.c[0];
+  const double aa = dot(e1, e1), ab = dot(e1, e2), bb = dot(e2, e2), det = aa * bb - ab * ab;
+  const double p = dot(e1, here.c[0]), q = dot(e2, here.c[0]);
+  const double u = (ab * q - bb * p) / det, v = (ab * p - aa * q) / det;
+  const double of_edges[4] = {(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v};
+  const double of_face[4] = {1 - u - v, u, v, 1};
+  const double* weight = edges ? of_edges : of_face;
+  const double least = *std::min_element(weight, weight + here.count);
+  if (!(det > 0 && least > 0)) return false;
+  Vec f{};
+  for (int k = 0; k < here.count; ++k) f = f + weight[k] * here.c[k];
+  const double urho = kU * c.corners.rho, len1 = std::sqrt(aa), len2 = std::sqrt(bb);
+  const double m = 1.01 * (std::sqrt(dot(f, f)) + 36 * urho) / least;
+  const double across = std::max(std::fabs(dot(w, e1)), std::fabs(dot(w, e2))) + 16 * urho;
+  const double area = std::fabs(dot(w, cross(e1, e2))) - 64 * kU * len1 * len2;
+  const double r = (2 * m + 4 * urho + across) * (len1 + len2) / area;
+  if (!(area > 0 && r <= 0.25)) return false;
+  for (int k = 0; k < here.count; ++k) {
+    const Vec g = vec(c.corners.c[1][k]);
+    if (side.sign * dot(w, g) < -(1.2 * (kMostHalved * m + r * std::sqrt(dot(g, g))) + 32 * urho))
+      return true;
+  }
+  return false;
+}
+
 // Returns the latest time found until which the pair parts along a direction chosen for it; t for none.
 template <class Parts>
 double latest(double t, Parts&& parts) {
@@ -96,6 +137,7 @@ double latest(double t, Parts&& parts) {
 // exactly.
 double part_from_noise(const InitialCase& c, const Hull& here, double noise, Vec& n) {
   const Side side = side_at_start(c);
+  if (goes_through(c, here, side)) return 0;
   const double reached = latest(0, [&](double tb) {
     const Hull there(c.corners, tb);
     n = dividing_direction(here, there, side, noise);
@@ -107,6 +149,10 @@ double part_from_noise(const InitialCase& c, const Hull& here, double noise, Vec
 }
 
 }  // namespace
+
+bool plainly_goes_through(const InitialCase& c) {
+  return goes_through(c, Hull(c.corners, 0), side_at_start(c));
+}
 
 Parting find_parting(const InitialCase& c) {
   Parting r;

@@ -39,4 +39,8 @@ struct Parting {
 // in touch is pressing, unless nothing moves.
 Parting find_parting(const InitialCase& c);
 
+// Of a pair within noise of touching at the start: whether it is plain, without a search, that nothing parts
+// it. find_parting asks this first.
+bool plainly_goes_through(const InitialCase& c);
+
 }  // namespace onset
