@@ -34,6 +34,12 @@ class Bench(AppTest):
         scalar, = self.scenes("--resting", "1000", "--min-separation", "1e-4", "--kernel", "scalar")
         self.assertEqual((within["hash"], within["step_size"]), (scalar["hash"], scalar["step_size"]))
 
+    def test_small_meshes_at_rest(self):
+        few, many = self.scenes("--small")
+        self.assertEqual((few["faces"], many["faces"]), (196, 1936))
+        for scene in (few, many):
+            self.assertEqual((sum(scene["stats"]["contacts"].values()), scene["step_size"]), (0, 1))
+
     def test_stages_and_costs(self):
         scene, = self.scenes("--cloth", "1000")
         stats = scene["stats"]

@@ -21,7 +21,7 @@ struct Inputs : Arguments {
   std::string a, b;
   std::vector<std::int64_t> cloths, plates;
   int repeats = 5, refine = 0;
-  bool weld = false;
+  bool weld = false, small = false;
   std::vector<std::string> planes;
   LoopSettings loop{0, 1, 0.005, 0};
   int pause_mebibytes = 0, kernel_rounds = 0;
@@ -93,6 +93,10 @@ std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& opt
   for (const std::int64_t n : inputs.cloths)
     each_refinement(format("layered cloth, %lld triangles", static_cast<long long>(n)),
                     [&](int times) { return to_scene(refined(layered_cloth(n), times)); });
+  if (inputs.small)
+    for (const std::int64_t n : {200, 2000})
+      each_refinement(format("at rest, %lld triangles", static_cast<long long>(n)),
+                      [&](int times) { return to_scene(refined(still_sheets(n), times)); });
   for (const std::int64_t n : inputs.plates)
     each_refinement(format("resting plates, %lld triangles", static_cast<long long>(n)),
                     [&](int times) { return to_scene(refined(resting_plates(n), times)); });
@@ -101,8 +105,8 @@ std::vector<NamedCost> bench_all(const Inputs& inputs, const onset::Options& opt
 
 void run_bench(const Inputs& inputs) {
   const onset::Options options = to_options(inputs);
-  if (inputs.a.empty() == (inputs.cloths.empty() && inputs.plates.empty()))
-    throw UsageError("bench: either two frames A and B or --cloth or --resting");
+  if (inputs.a.empty() == (inputs.cloths.empty() && inputs.plates.empty() && !inputs.small))
+    throw UsageError("bench: either two frames A and B or --cloth, --resting or --small");
   if (!inputs.a.empty() && inputs.b.empty()) throw UsageError("bench: B is missing");
   if (inputs.weld && (inputs.a.empty() || inputs.refine > 0))
     throw UsageError("bench: --weld is for the frames A and B as they are, not refined");
@@ -145,6 +149,7 @@ void add_bench(CLI::App& app, Run& run) {
       ->type_name("COUNT,...")
       ->delimiter(',')
       ->check(whole_numbers(4, 1'000'000'000));
+  command->add_flag("--small", inputs->small, "The same of meshes of 200 and 2,000 triangles at rest");
   add_whole(*command, "--refine", inputs->refine, "TIMES",
             "Divide each triangle into four, up to TIMES over, and measure each time", 0, 8);
   add_whole(*command, "--repeats", inputs->repeats, "COUNT",

@@ -112,6 +112,16 @@ Frames divided(const Frames& frames) {
   return finer;
 }
 
+void add_still_sheet(Frames& frames, int n, int sheet, Eigen::Index first_vertex, Eigen::Index first_face) {
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      const Eigen::Index v = first_vertex + Eigen::Index(i) * (n + 1) + j;
+      frames.x_t0.row(v) = Eigen::RowVector3d(i, j, kGap * sheet) / n;
+      frames.x_t1.row(v) = Eigen::RowVector3d(i, j, (kGap - 0.1) * sheet) / n;
+    }
+  add_faces(frames, n, first_vertex, first_face);
+}
+
 template <class AddSheet>
 Frames two_sheets(std::int64_t triangles, const AddSheet& add) {
   const int n = std::max(1, int(std::lround(std::sqrt(double(triangles) / 4))));
@@ -126,6 +136,7 @@ Frames two_sheets(std::int64_t triangles, const AddSheet& add) {
 
 Frames layered_cloth(std::int64_t triangles) { return two_sheets(triangles, add_sheet); }
 Frames resting_plates(std::int64_t triangles) { return two_sheets(triangles, add_plate); }
+Frames still_sheets(std::int64_t triangles) { return two_sheets(triangles, add_still_sheet); }
 
 Frames refined(Frames frames, int times) {
   for (int i = 0; i < times; ++i) {

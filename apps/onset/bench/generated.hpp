@@ -22,6 +22,10 @@ Frames layered_cloth(std::int64_t triangles);
 // ripples of the upper one press it on the lower one in half of the area and part the two in the other.
 Frames resting_plates(std::int64_t triangles);
 
+// Two flat sheets on the same grid, 1.5 edge lengths apart, of which the upper one moves by a tenth of an
+// edge length: a mesh at rest.
+Frames still_sheets(std::int64_t triangles);
+
 // Each triangle divided into four at the midpoints of its edges, `times` over, in both frames: the same
 // scene, finer.
 Frames refined(Frames frames, int times);
