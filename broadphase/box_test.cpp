@@ -36,6 +36,19 @@ std::vector<int> some_moving_edges(const MeshData& mesh) {
   return edges;
 }
 
+// Says whether no edge can move more than kSizesMoved sizes against the others, without a median: most edges
+// are long enough beside the largest difference of two moves. The usual size is then no less than they are,
+// and no move is further from the common one than from the farthest.
+bool moves_little(const std::vector<double>& size, const std::vector<double> (&moved)[3]) {
+  double apart = 0;
+  for (const std::vector<double>& m : moved) {
+    const auto [least, most] = std::minmax_element(m.begin(), m.end());
+    apart = std::max(apart, *most - *least);
+  }
+  const auto is_long = [&](double s) { return kSizesMoved * s >= apart; };
+  return 2 * std::size_t(std::count_if(size.begin(), size.end(), is_long)) > size.size();
+}
+
 }  // namespace
 
 BoxTest cheaper_box_test(const MeshData& mesh, const Motion& motion) {
@@ -49,7 +62,8 @@ BoxTest cheaper_box_test(const MeshData& mesh, const Motion& motion) {
     }
     size.push_back(largest);
   }
-  const double usual = size.empty() ? 0 : median(size);
+  if (size.empty() || moves_little(size, moved)) return BoxTest::both_ends;
+  const double usual = median(size);
   if (usual == 0) return BoxTest::both_ends;
   const double common[3] = {median(moved[0]), median(moved[1]), median(moved[2])};
   double sizes = 0;  // sum over edges: how many sizes each moves against the others

@@ -11,13 +11,15 @@ namespace onset {
 
 namespace {
 
-constexpr int kSamples = 256;       // vertices; both ends of each
+constexpr int kSamples = 256;       // vertices at most; both ends of each
+constexpr int kFewSamples = 32;     // of a small mesh, where an eighth of the vertices is fewer
 constexpr std::size_t kStride = 2;  // samples a knot
 
 // Samples the coordinates of each axis, in ascending order.
 std::array<std::vector<double>, 3> sample(const Motion& motion) {
   std::array<std::vector<double>, 3> samples;
-  const int step = std::max(1, motion.num_vertices / kSamples);
+  const int wanted = std::clamp(motion.num_vertices / 8, kFewSamples, kSamples);
+  const int step = std::max(1, motion.num_vertices / wanted);
   for (std::size_t i = 0; i < 3; ++i) {
     for (int v = 0; v < motion.num_vertices; v += step)
       samples[i].push_back(motion.t0(v)[i]), samples[i].push_back(motion.t1(v)[i]);

@@ -1,9 +1,13 @@
 // The choice between the two tests of boxes in motion.
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <vector>
 
 #include "broadphase/box_test.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/random.hpp"
 
 using namespace onset;
 using namespace onset::tests;
@@ -28,6 +32,31 @@ Soup edges(int count, const std::function<double(int)>& by) {
 }
 
 double to_and_fro(int i) { return i % 2 == 0 ? 5 : -5; }
+
+double median(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  return 0.5 * x[(x.size() - 1) / 2] + 0.5 * x[x.size() / 2];
+}
+
+// By the medians of all sizes and moves.
+BoxTest choice_by_medians(const Soup& soup) {
+  const Motion motion = soup.motion();
+  std::vector<double> size, moved[3];
+  for (const auto& [v, w] : soup.mesh.edges) {
+    size.push_back(0);
+    for (int a = 0; a < 3; ++a) {
+      size.back() = std::max(size.back(), std::fabs(motion.t0(v)[a] - motion.t0(w)[a]));
+      moved[a].push_back(motion.t1(v)[a] - motion.t0(v)[a]);
+    }
+  }
+  double sizes = 0;
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    double most = 0;
+    for (int a = 0; a < 3; ++a) most = std::max(most, std::fabs(moved[a][i] - median(moved[a])));
+    sizes += std::min(most / median(size), 16.0);
+  }
+  return sizes > 2 * double(size.size()) ? BoxTest::moving : BoxTest::both_ends;
+}
 
 }  // namespace
 
@@ -68,4 +97,23 @@ TEST_CASE("the choice is the same for a scene mirrored, with axes exchanged, or 
       for (double factor : {0x1p-1000, 0x1p1008})
         CHECK(choice(scaled(soup, "scaled", factor)) == choice(soup));
     }
+}
+
+TEST_CASE("where most edges are long beside all moves, the choice is that of the medians", "[property]") {
+  scenes::Random random(57);
+  int moving = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double far = scenes::power_of_ten(random, -0.5, 1.5);
+    Soup soup =
+        edges(scenes::integer(random, 1, 40), [&](int) { return scenes::uniform(random, -far, far); });
+    for (std::size_t v = 1; v < soup.x_t0.size() / 3; v += 2) {  // edges of many sizes
+      const double by = scenes::uniform(random, -1, 1);
+      soup.x_t0[3 * v] += by, soup.x_t1[3 * v] += by;
+    }
+    const BoxTest by_medians = choice_by_medians(soup);
+    moving += by_medians == BoxTest::moving;
+    CHECK(choice(soup) == by_medians);
+  }
+  CHECK(moving > 200);
+  CHECK(moving < 1800);
 }
