@@ -6,6 +6,7 @@
 
 #include "scene/mesh_data.hpp"
 #include "scene/motion/motion.hpp"
+#include "scene/pairs/whole_scene.hpp"
 #include "scene/primitive_filter.hpp"
 
 namespace onset {
@@ -31,8 +32,8 @@ std::vector<int> some_moving_edges(const MeshData& mesh) {
   const std::vector<int>* moving = all ? nullptr : &filter.moving[std::size_t(Primitive::edge)];
   const std::size_t count = all ? mesh.edges.size() : moving->size();
   std::vector<int> edges;
-  for (std::size_t i = 0; i < count; i += std::max<std::size_t>(1, count / kSamples))
-    edges.push_back(all ? int(i) : (*moving)[i]);
+  const std::size_t stride = sampled_edge_stride(count);
+  for (std::size_t i = 0; i < count; i += stride) edges.push_back(all ? int(i) : (*moving)[i]);
   return edges;
 }
 
@@ -51,16 +52,31 @@ bool moves_little(const std::vector<double>& size, const std::vector<double> (&m
 
 }  // namespace
 
+std::size_t sampled_edge_stride(std::size_t moving_edges) {
+  return std::max<std::size_t>(1, moving_edges / kSamples);
+}
+
+EdgeSample sample_edge(const Motion& motion, const std::array<int, 2>& edge) {
+  EdgeSample r{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    r.size = std::max(r.size, std::fabs(motion.t0(edge[0])[a] - motion.t0(edge[1])[a]));
+    r.moved[a] = motion.t1(edge[0])[a] - motion.t0(edge[0])[a];
+  }
+  return r;
+}
+
 BoxTest cheaper_box_test(const MeshData& mesh, const Motion& motion) {
+  if (mesh.whole) return mesh.whole->tests_moving_boxes ? BoxTest::moving : BoxTest::both_ends;
+  std::vector<EdgeSample> samples;
+  for (int e : some_moving_edges(mesh)) samples.push_back(sample_edge(motion, mesh.edges[std::size_t(e)]));
+  return cheaper_box_test(samples);
+}
+
+BoxTest cheaper_box_test(const std::vector<EdgeSample>& samples) {
   std::vector<double> size, moved[3];
-  for (int e : some_moving_edges(mesh)) {
-    const auto [v, w] = mesh.edges[std::size_t(e)];
-    double largest = 0;
-    for (int a = 0; a < 3; ++a) {
-      largest = std::max(largest, std::fabs(motion.t0(v)[a] - motion.t0(w)[a]));
-      moved[a].push_back(motion.t1(v)[a] - motion.t0(v)[a]);
-    }
-    size.push_back(largest);
+  for (const EdgeSample& sample : samples) {
+    size.push_back(sample.size);
+    for (std::size_t a = 0; a < 3; ++a) moved[a].push_back(sample.moved[a]);
   }
   if (size.empty() || moves_little(size, moved)) return BoxTest::both_ends;
   const double usual = median(size);

@@ -1,8 +1,11 @@
 #include "broadphase/broad_phase.hpp"
 
+#include <utility>
+
 #include "broadphase/brute_force.hpp"
 #include "broadphase/bvh/bvh.hpp"
 #include "broadphase/hash/spatial_hash.hpp"
+#include "broadphase/part_pairs.hpp"
 
 namespace onset {
 
@@ -26,7 +29,10 @@ std::unique_ptr<BroadPhase> make(BroadPhaseMethod method, const BroadPhaseInput&
 std::unique_ptr<BroadPhase> make_broad_phase(BroadPhaseMethod method, const BroadPhaseInput& input,
                                              const Stop& stop) {
   std::unique_ptr<BroadPhase> made = make(method, input, stop);
-  if (!made->ready()) made.reset();
+  if (!made->ready())
+    made.reset();
+  else if (input.mesh.whole)
+    made = pairs_of_part(std::move(made), input);
   return made;
 }
 

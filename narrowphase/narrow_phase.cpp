@@ -9,6 +9,7 @@
 #include "narrowphase/pair_decision.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/pairs/whole_scene.hpp"
 
 namespace onset {
 namespace {
@@ -54,7 +55,8 @@ NarrowPhase::NarrowPhase(const NarrowPhaseInput& input)
     : in_(input),
       kernels_(&kernels_for(input.options.instruction_set)),
       scale_(power_of_two_near_one_over(input.extent)) {
-  if (input.for_many) rounded_ = round_positions(input.motion, scale_);
+  if (input.for_many)
+    rounded_ = round_positions(input.motion, scale_, input.mesh.whole ? &input.mesh.whole->middle : nullptr);
 }
 
 // 2^-45 extent covers 16 E7 <= 201u extent (docs/theory.md, L18), and the inclusion root finder's errors

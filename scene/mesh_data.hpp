@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "onset/collision_rules.hpp"
+#include "onset/export.hpp"
 #include "scene/static_cache.hpp"
 
 namespace onset {
@@ -16,6 +17,7 @@ struct MeshPlanes;       // scene/planes.hpp
 struct PrimitiveFilter;  // scene/primitive_filter.hpp
 struct RestShape;        // scene/pairs/rest_limits.hpp
 class VertexRings;       // scene/pairs/vertex_rings.hpp
+struct WholeScene;       // scene/pairs/whole_scene.hpp
 
 // A separation of the pairs of two bodies, first <= second.
 struct SeparationOfBodies {
@@ -24,7 +26,7 @@ struct SeparationOfBodies {
 };
 
 // Returns the filter of a mesh without rules: see MeshData::filter.
-std::shared_ptr<const PrimitiveFilter> all_primitives();
+ONSET_API std::shared_ptr<const PrimitiveFilter> all_primitives();
 
 // Edges against faces, which only the checks of positions at rest ask about; a step has no such pairs. The
 // last kind of all.
@@ -40,6 +42,8 @@ struct MeshData {
   std::vector<std::array<int, 3>> faces;
   // A vertex each, >= 0; empty: none.
   std::vector<double> thickness;
+  // Of a part of a scene: the largest anywhere in it.
+  double thickest_elsewhere = 0;
   // By (first, second), each once; in place of the separation of a call.
   std::vector<SeparationOfBodies> body_separations;
   // Null where the shape at rest lowers no separation.
@@ -82,6 +86,9 @@ struct MeshData {
   // Not null after finish_mesh.
   std::shared_ptr<BroadPhasePool> broad_phases;
   std::shared_ptr<TurningScenePool> turning_scenes;
+
+  // Null where the mesh is no part of a larger scene.
+  std::shared_ptr<const WholeScene> whole;
 };
 
 // Returns the largest id of a body + 1.
@@ -109,7 +116,8 @@ inline double thickest(const MeshData& mesh, const int* first, const int* last) 
 
 // The largest thickness of all vertices.
 inline double thickest(const MeshData& mesh) {
-  return mesh.thickness.empty() ? 0 : *std::max_element(mesh.thickness.begin(), mesh.thickness.end());
+  if (mesh.thickness.empty()) return mesh.thickest_elsewhere;
+  return std::max(mesh.thickest_elsewhere, *std::max_element(mesh.thickness.begin(), mesh.thickness.end()));
 }
 
 }  // namespace onset

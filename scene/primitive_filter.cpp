@@ -6,6 +6,7 @@
 
 #include "scene/filter_counts.hpp"
 #include "scene/pairs/vertex_rings.hpp"
+#include "scene/pairs/whole_scene.hpp"
 #include "scene/planes.hpp"
 #include "scene/static_cache.hpp"
 
@@ -130,11 +131,18 @@ bool named(const std::vector<std::array<int, 2>>& pairs, int a, int b) {
 
 }  // namespace
 
+bool scene_has_static(const MeshData& mesh) {
+  return mesh.whole ? mesh.whole->has_static : mesh.filter->has_static();
+}
+
 void finish_mesh(MeshData& mesh) {
   auto filter = std::make_shared<PrimitiveFilter>();
   if (needs_keys(mesh)) make_keys(mesh, *filter), flag_excluded_pairs(mesh, *filter);
   std::array<std::vector<bool>, 3> idle;
-  count_filtered(mesh, *filter, idle);
+  if (mesh.whole)  // its partners may be in other parts
+    for (const Primitive kind : kPrimitives) idle[std::size_t(kind)].resize(primitive_count(mesh, kind));
+  else
+    count_filtered(mesh, *filter, idle);
   if (filter->keeps_apart())
     list_primitives(mesh, idle, *filter);
   else

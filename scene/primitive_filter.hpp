@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "onset/export.hpp"
 #include "onset/filter_counts.hpp"
 #include "scene/primitive.hpp"
 
@@ -43,7 +44,10 @@ struct PrimitiveFilter {
 };
 
 // Makes mesh.filter from the rest, and empty stores for what is kept from call to call.
-void finish_mesh(MeshData& mesh);
+ONSET_API void finish_mesh(MeshData& mesh);
+
+// Says whether static primitives take part, in this mesh or anywhere in the scene that it is a part of.
+bool scene_has_static(const MeshData& mesh);
 
 // Says whether keys let two primitives meet, excluded pairs apart.
 inline bool keys_meet(const PrimitiveKey& a, const PrimitiveKey& b) {

@@ -1,37 +1,11 @@
 #include "onset/active_set.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "base/parallel.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/contacts.hpp"
 #include "src/shared/find_contacts.hpp"
 
 namespace onset {
-namespace {
-
-// Cuts off what the window and the memory limit exclude, in the order (toi, kind, a, b).
-void cut_off(std::vector<FoundPair>& found, const Options& options, Budget& budget, ActiveSet& set) {
-  set.complete_until = std::numeric_limits<double>::infinity();
-  set.outcome = budget.outcome();
-  if (!found.empty() && options.window < 1) {
-    double earliest = found[0].result.toi;
-    for (const FoundPair& f : found) earliest = std::min(earliest, f.result.toi);
-    set.complete_until = earliest + options.window;
-    found.erase(std::remove_if(found.begin(), found.end(),
-                               [&](const FoundPair& f) { return f.result.toi > set.complete_until; }),
-                found.end());
-  }
-  if (found.size() > most_contacts(options)) {  // by one, which says until when the others are all
-    const auto latest = std::max_element(found.begin(), found.end(), earlier);
-    set.complete_until = latest->result.toi;
-    if (set.outcome == Outcome::free) set.outcome = Outcome::out_of_memory;
-    found.erase(latest);
-  }
-}
-
-}  // namespace
 
 ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,
                                const Options& options) {
@@ -49,7 +23,7 @@ ActiveSet construct_active_set(const Mesh& mesh, const Positions& x_t0, const Po
     TraversalResult traversal = find_contacts(mesh, setup, options, Collect::all, budget, set.stats);
     const double begun = setup.clock.seconds();
     note_worst(mesh, traversal, set.stats);
-    cut_off(traversal.found, options, budget, set);
+    cut_off(traversal.found, earliest_toi(traversal.found), options, budget.outcome(), set);
     fill_contacts(mesh, setup.motion, options, traversal.found, budget.interruption(), set);
     if (budget.outcome() != Outcome::free) {
       set.outcome = budget.outcome();

@@ -9,6 +9,7 @@
 #include "narrowphase/narrow_phase.hpp"
 #include "scene/motion/storing.hpp"
 #include "scene/pair_source.hpp"
+#include "src/part/part_of_line_search.hpp"
 #include "src/planes/plane_contacts.hpp"
 #include "src/shared/checked_options.hpp"
 #include "src/shared/close_set.hpp"
@@ -62,6 +63,7 @@ struct LineSearch::Impl {
     return setup->broad ? static_cast<const PairSource&>(*setup->broad) : list;
   }
   std::vector<double> at(double step) const;
+  FoundOnLine find(double upper, Budget& budget) const;
 };
 
 // Fills the lists; returns false where they would be too long. A pair that stays beyond euclidean_reach in
@@ -134,6 +136,51 @@ const LineSearch::Impl& LineSearch::impl() const {
 PairCounts LineSearch::candidates() const { return impl().pairs.counts(); }
 PairCounts LineSearch::close_candidates() const { return impl().near.counts(); }
 
+// Finds what limits the line search, and fills the statistics of a step but for the seconds.
+FoundOnLine LineSearch::Impl::find(double upper, Budget& budget) const {
+  FoundOnLine r;
+  const PlaneAsk ask{true, options.gap_share, options.touching_may_pass_through};
+  const PlaneContacts planes =
+      find_plane_contacts({mesh.data(), setup->motion, options, ask}, Collect::first, budget);
+  r.traversal = traverse_pairs(source(pairs), NarrowPhase(input()), Collect::first, upper, budget);
+  r.traversal.limits.add(planes.limits);
+  r.stats = start.stats;
+  copy_counts(r.traversal, r.stats);
+  add_counts(planes, r.stats);
+  for (const PairKind kind : kStepKinds)
+    r.least[std::size_t(kind)] = {r.traversal.of(kind).least_share, r.traversal.of(kind).closest};
+  r.least[std::size_t(PairKind::vertex_plane)] = {planes.stats.least_share, planes.stats.closest};
+  return r;
+}
+
+std::optional<std::pair<PairKind, IdPair>> put_shares(const LeastShares& least, LineSearchStep& r) {
+  std::optional<std::pair<PairKind, IdPair>> closest;
+  for (std::size_t kind = 0; kind < least.size(); ++kind) {
+    if (least[kind].share >= r.gap_share) continue;
+    r.gap_share = std::max(least[kind].share, 0.0);
+    r.gap_share_reduced = true;
+    closest = {PairKind(kind), least[kind].pair};
+  }
+  r.assured = r.outcome != Outcome::below_rounding || r.step > 0;
+  return closest;
+}
+
+const StepResult& PartOfLineSearch::start(const LineSearch& search) { return search.impl().start; }
+
+FoundOnLine PartOfLineSearch::find(const LineSearch& search, double upper) {
+  const LineSearch::Impl& h = search.impl();
+  FoundOnLine r;
+  in_arena(h.options.threads, [&] {
+    const Clock clock;
+    Budget budget(h.options);
+    r = h.find(upper, budget);
+    r.outcome = budget.outcome();
+    if (r.outcome != Outcome::free) r.stats.looked_at = budget.done();
+    r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
+  });
+  return r;
+}
+
 LineSearchStep LineSearch::largest_step(double upper) const {
   in_float_environment(check_step, "upper", upper);
   const Impl& h = impl();
@@ -144,25 +191,12 @@ LineSearchStep LineSearch::largest_step(double upper) const {
   in_arena(h.options.threads, [&] {
     const Clock clock;
     Budget budget(h.options);
-    const PlaneAsk ask{true, h.options.gap_share, h.options.touching_may_pass_through};
-    const PlaneContacts planes =
-        find_plane_contacts({h.mesh.data(), h.setup->motion, h.options, ask}, Collect::first, budget);
-    TraversalResult traversal =
-        traverse_pairs(h.source(h.pairs), NarrowPhase(h.input()), Collect::first, upper, budget);
-    traversal.limits.add(planes.limits);
-    copy_counts(traversal, r.stats);
-    add_counts(planes, r.stats);
-    limit_step(h.mesh, traversal, budget, upper, upper, r);
+    const FoundOnLine found = h.find(upper, budget);
+    r.stats = found.stats;
+    limit_step(h.mesh, found.traversal, budget, upper, upper, r);
     r.stats.seconds_narrow = r.stats.seconds_total = clock.seconds();
-    const auto note_share = [&](PairKind kind, const NarrowPhaseStats& stats) {
-      if (stats.least_share >= r.gap_share) return;
-      r.gap_share = std::max(stats.least_share, 0.0);
-      r.gap_share_reduced = true;
-      r.closest = to_pair(h.mesh, {kind, {stats.closest, 0, 0, 0, PairOutcome::free}});
-    };
-    for (const PairKind kind : kStepKinds) note_share(kind, traversal.of(kind));
-    note_share(PairKind::vertex_plane, planes.stats);
-    r.assured = r.outcome != Outcome::below_rounding || r.step > 0;
+    if (const auto closest = put_shares(found.least, r))
+      r.closest = to_pair(h.mesh, {closest->first, {closest->second, 0, 0, 0, PairOutcome::free}});
   });
   return r;
 }

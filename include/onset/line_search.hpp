@@ -12,6 +12,8 @@
 
 namespace onset {
 
+class PartOfLineSearch;  // src/part/part_of_line_search.hpp
+
 struct LineSearchOptions : Options {
   LineSearchOptions() = default;
   // NOLINTNEXTLINE: implicit by design, for who needs no more.
@@ -86,6 +88,7 @@ class ONSET_API LineSearch {
   PairCounts close_candidates() const;
 
  private:
+  friend class PartOfLineSearch;
   struct Impl;
   const Impl& impl() const;
   std::unique_ptr<Impl> impl_;

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "base/simd/rows.hpp"
+#include "scene/pairs/whole_scene.hpp"
 
 namespace onset {
 namespace {
@@ -84,15 +85,22 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
     }
   }
   const std::vector<int>& some = filter.moving_vertices;
-  const Row far =
-      filter.all ? largest_row(std::size_t(m.num_vertices), [&](std::size_t v) { return moved(m, int(v)); })
-                 : largest_row(some.size(), [&](std::size_t i) { return moved(m, some[i]); });
-  for (int a = 0; a < 3; ++a) {  // each sum rounds twice: factor 1 + 4u
-    if (!mesh.faces.empty())
-      r.vertex_face[a] = (far[std::size_t(a)] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
+  Row far = filter.all
+                ? largest_row(std::size_t(m.num_vertices), [&](std::size_t v) { return moved(m, int(v)); })
+                : largest_row(some.size(), [&](std::size_t i) { return moved(m, some[i]); });
+  bool has_faces = !mesh.faces.empty(), has_edges = !mesh.edges.empty();
+  if (const WholeScene* whole = mesh.whole.get()) {
+    has_faces = whole->has_faces, has_edges = whole->has_edges;
+    for (std::size_t a = 0; a < 3; ++a) {
+      edge[a] = std::max(edge[a], whole->widest_edge[a]), face[a] = std::max(face[a], whole->widest_face[a]);
+      far[a] = std::max(far[a], whole->moved[a]);
+    }
+  }
+  for (std::size_t a = 0; a < 3; ++a) {  // each sum rounds twice: factor 1 + 4u
+    if (has_faces) r.vertex_face[a] = (far[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);
     if (mesh.dimension == 2)
-      r.vertex_edge[a] = (far[std::size_t(a)] * (1 + 0x1p-52) + edge[a] + gap) * (1 + 0x1p-51);
-    else if (!mesh.edges.empty())
+      r.vertex_edge[a] = (far[a] * (1 + 0x1p-52) + edge[a] + gap) * (1 + 0x1p-51);
+    else if (has_edges)
       r.edge_edge[a] = (2 * edge[a] + gap) * (1 + 0x1p-51);
   }
   return r;

@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/simd/rows.hpp"
 #include "scene/motion/canonical_axes.hpp"
+#include "scene/pairs/whole_scene.hpp"
 #include "scene/static_cache.hpp"
 
 namespace onset {
@@ -86,7 +87,9 @@ void store_permuted(Motion& m) {
   });
 }
 
-Outcome classify(const double* x) {
+}  // namespace
+
+Outcome outcome_of_position(const double* x) {
   Outcome result = Outcome::free;
   for (int a = 0; a < 3; ++a) {
     if (!std::isfinite(x[a])) return Outcome::non_finite;
@@ -94,6 +97,8 @@ Outcome classify(const double* x) {
   }
   return result;
 }
+
+namespace {
 
 // Finds the canonical axes from the free vertices and what is known of the others. Returns false where a
 // position is not usable.
@@ -111,6 +116,10 @@ bool axes_around(const MeshData& mesh, const StaticMotion& still, const Position
     width[a] = hi - lo;
   }
   if (mesh.dimension == 2) width[2] = -1;
+  if (mesh.whole) {
+    axes = mesh.whole->axes;
+    return true;
+  }
   axes = widest_first(width, int(x_t0.rows()),
                       [&](int v, int end, int a) { return end == 0 ? x_t0(v, a) : x_t1(v, a); });
   return true;
@@ -164,8 +173,10 @@ Positions in_space(const MeshData& mesh, const char* name, const Positions& x) {
 Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1) {
   check_rows(mesh, "x_t0", x_t0);
   check_rows(mesh, "x_t1", x_t1);
-  if (mesh.dimension == 2) return make_motion_of(mesh, x_t0.in_space(), x_t1.in_space());
-  return make_motion_of(mesh, x_t0, x_t1);
+  Motion m = mesh.dimension == 2 ? make_motion_of(mesh, x_t0.in_space(), x_t1.in_space())
+                                 : make_motion_of(mesh, x_t0, x_t1);
+  if (mesh.whole) m.largest_elsewhere = mesh.whole->largest_coordinate;
+  return m;
 }
 
 namespace {
@@ -176,7 +187,8 @@ Motion make_motion_of(const MeshData& mesh, const Positions& x_t0, const Positio
   auto still = cached ? mesh.static_cache->motion.get() : nullptr;
   if (still)
     if (Motion m = motion_around(mesh, still, x_t0, x_t1); m.static_part) return m;
-  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1, mesh.dimension == 2);
+  Motion m = make_motion(mesh.num_vertices, x_t0, x_t1, mesh.dimension == 2,
+                         mesh.whole ? &mesh.whole->axes : nullptr);
   if (m.status != Outcome::free) return m;
   bool same = still != nullptr;
   for (std::size_t k = 0; k < mesh.filter->static_ids.size(); ++k) {
@@ -199,7 +211,8 @@ Motion make_motion_of(const MeshData& mesh, const Positions& x_t0, const Positio
 
 }  // namespace
 
-Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane) {
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane,
+                   const std::array<int, 3>* axes) {
   check_shape("x_t0", num_vertices, x_t0);
   check_shape("x_t1", num_vertices, x_t1);
   Motion m;
@@ -213,20 +226,20 @@ Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t
       x[3] = x[7] = 0;
     }
   });
-  finish_motion(m);
+  finish_motion(m, axes);
   return m;
 }
 
-void finish_motion(Motion& m) {
+void finish_motion(Motion& m, const std::array<int, 3>* axes) {
   if (m.num_vertices == 0) return;
   const Extent all = extent(m);
   if (all.bad_vertex < m.num_vertices) {
     m.bad_vertex = all.bad_vertex;
-    m.status = classify(m.t0(m.bad_vertex));
-    if (m.status == Outcome::free) m.status = classify(m.t1(m.bad_vertex));
+    m.status = outcome_of_position(m.t0(m.bad_vertex));
+    if (m.status == Outcome::free) m.status = outcome_of_position(m.t1(m.bad_vertex));
     return;
   }
-  m.axes = canonical_axes(m, all);
+  m.axes = axes != nullptr ? *axes : canonical_axes(m, all);
   store_permuted(m);
 }
 

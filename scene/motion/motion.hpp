@@ -8,6 +8,7 @@
 
 #include "base/aligned.hpp"
 #include "base/assert.hpp"
+#include "onset/export.hpp"
 #include "onset/result.hpp"
 #include "onset/views.hpp"
 #include "scene/motion/static_motion.hpp"
@@ -35,6 +36,8 @@ struct Motion {
   // free, non_finite or out_of_range; not free: the first such vertex is bad_vertex.
   Outcome status = Outcome::free;
   int bad_vertex = -1;
+  // Of a part of a scene: the largest magnitude of a coordinate anywhere in it.
+  double largest_elsewhere = 0;
   // Whether the rows of static vertices are those of `static_part`, bit for bit, at both ends.
   bool rows_last = false;
   // Null where no static primitive takes part, or status is not free.
@@ -47,8 +50,13 @@ struct Motion {
   const double* t1(int v) const { return t0(v) + 4; }
 };
 
+// Returns free, non_finite or out_of_range, for three coordinates.
+ONSET_API Outcome outcome_of_position(const double* x);
+
 // Makes the motion from x_t0 to x_t1. Throws std::invalid_argument unless both have num_vertices rows of 3.
-Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane = false);
+// axes: if given, these are its axes, not those that follow from the positions.
+Motion make_motion(int num_vertices, const Positions& x_t0, const Positions& x_t1, bool in_plane = false,
+                   const std::array<int, 3>* axes = nullptr);
 
 // Checks that x has one row of mesh.dimension coordinates for each vertex, else throws std::invalid_argument,
 // and returns it in three columns.
@@ -58,8 +66,8 @@ Positions in_space(const MeshData& mesh, const char* name, const Positions& x);
 // it.
 Motion make_motion(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1);
 
-// Checks the positions already stored in m.x and brings the axes into canonical order.
-void finish_motion(Motion& m);
+// Checks the positions already stored in m.x and brings the axes into canonical order, or that of `axes`.
+void finish_motion(Motion& m, const std::array<int, 3>* axes = nullptr);
 
 // Says whether same(i, j) holds for a point i < first of one side and a point j in [first, count) of the
 // other.

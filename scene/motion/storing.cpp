@@ -6,7 +6,7 @@
 namespace onset {
 
 double rounding_of_distances(const Motion& m) {
-  double largest = 0;
+  double largest = m.largest_elsewhere;
   for (int v = 0; v < m.num_vertices; ++v)
     for (const double* x : {m.t0(v), m.t1(v)})
       for (int a = 0; a < 3; ++a) largest = std::max(largest, std::fabs(x[a]));

@@ -12,6 +12,11 @@ inline bool has_pair_separations(const MeshData& mesh) {
   return !mesh.body_separations.empty() || mesh.rest != nullptr;
 }
 
+// Says whether any vertex has a thickness, here or elsewhere in the scene that this mesh is a part of.
+inline bool has_thickness(const MeshData& mesh) {
+  return !mesh.thickness.empty() || mesh.thickest_elsewhere > 0;
+}
+
 // Returns the largest separation that a call may ask of a pair, thickness apart.
 double largest_of_bodies(const MeshData& mesh, const Options& options);
 

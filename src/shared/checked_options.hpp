@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "onset/export.hpp"
 #include "onset/options.hpp"
 #include "onset/result.hpp"
 #include "scene/mesh_data.hpp"
@@ -11,9 +12,9 @@
 namespace onset {
 
 // Throws std::invalid_argument naming the option and its value.
-void check(const Options& options);
+ONSET_API void check(const Options& options);
 // Does the same for the share of a gap to keep.
-void check_gap_share(double gap_share);
+ONSET_API void check_gap_share(double gap_share);
 
 // Returns the distance, rounded up, that the thickest pair must keep.
 double largest_separation(const MeshData& mesh, const Options& options);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "onset/close_pairs.hpp"
+#include "onset/export.hpp"
 #include "scene/pair_source.hpp"
 #include "scene/pairs/separation.hpp"
 #include "src/shared/visit_pairs.hpp"
@@ -11,7 +12,7 @@
 namespace onset {
 
 // Throws std::invalid_argument unless d_hat is > 0 (or 0 where allowed) and at most 2^1020.
-void check_d_hat(double d_hat, bool zero_allowed);
+ONSET_API void check_d_hat(double d_hat, bool zero_allowed);
 
 // Returns a length of the model, rounded up. A distance set of `d_hat` holds only pairs that come closer than
 // this plus their thickness, or less, in exact motion, where storing positions changes distances by at most

@@ -1,10 +1,12 @@
 #include "src/shared/contacts.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "narrowphase/distance/contact_geometry.hpp"
 #include "src/planes/plane_geometry.hpp"
+#include "src/shared/find_contacts.hpp"
 
 namespace onset {
 namespace {
@@ -37,6 +39,30 @@ void put(const PairResult& result, Contact& contact) {
 void put(const ContactGeometry& geometry, Contact& contact) {
   contact.weights = geometry.weights, contact.normal = geometry.normal;
   contact.gap = geometry.gap, contact.speed = geometry.speed, contact.degenerate = geometry.degenerate;
+}
+
+double earliest_toi(const std::vector<FoundPair>& found) {
+  double earliest = std::numeric_limits<double>::infinity();
+  for (const FoundPair& f : found) earliest = std::min(earliest, f.result.toi);
+  return earliest;
+}
+
+void cut_off(std::vector<FoundPair>& found, double earliest, const Options& options, Outcome outcome,
+             ActiveSet& set) {
+  set.complete_until = std::numeric_limits<double>::infinity();
+  set.outcome = outcome;
+  if (earliest < std::numeric_limits<double>::infinity() && options.window < 1) {
+    set.complete_until = earliest + options.window;
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const FoundPair& f) { return f.result.toi > set.complete_until; }),
+                found.end());
+  }
+  if (found.size() > most_contacts(options)) {  // by one, which says until when the others are all
+    const auto latest = std::max_element(found.begin(), found.end(), earlier);
+    set.complete_until = latest->result.toi;
+    if (set.outcome == Outcome::free) set.outcome = Outcome::out_of_memory;
+    found.erase(latest);
+  }
 }
 
 void fill_contacts(const Mesh& mesh, const Motion& motion, const Options& options,

@@ -15,6 +15,13 @@ namespace onset {
 void put(const PairResult& result, Contact& contact);
 void put(const ContactGeometry& geometry, Contact& contact);
 
+// Returns the least toi; infinite where there is none.
+double earliest_toi(const std::vector<FoundPair>& found);
+// Cuts off what Options::window and memory_limit exclude, in the order (toi, kind, a, b), and sets outcome
+// and complete_until. earliest: of the whole scene.
+void cut_off(std::vector<FoundPair>& found, double earliest, const Options& options, Outcome outcome,
+             ActiveSet& set);
+
 // Makes contact i of `set` from found[i], which are sorted by `before`, and counts those of each kind. Where
 // it is stopped, only the first of these.
 void fill_contacts(const Mesh& mesh, const Motion& motion, const Options& options,

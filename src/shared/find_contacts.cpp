@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "broadphase/motion_box.hpp"
+#include "scene/pairs/whole_scene.hpp"
 #include "scene/primitive_filter.hpp"
 #include "src/planes/plane_contacts.hpp"
 
@@ -63,13 +64,20 @@ Shrunk shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& na
   return {t_max, true};
 }
 
-// Makes the times of those exact that can be the earliest: no other is before the least toi_hi.
-void sharpen_earliest(const NarrowPhase& narrow, std::vector<FoundPair>& found, Budget& budget) {
-  double latest = INFINITY;
-  for (const FoundPair& f : found)
-    if (f.result.outcome != PairOutcome::initial_separating) latest = std::min(latest, f.result.toi_hi);
+// Sets up the narrow phase, but for what only a traversal needs.
+NarrowPhaseInput narrow_phase_input(const Mesh& mesh, const StepSetup& setup, const Options& options,
+                                    Collect collect, const TraversalBounds& limited) {
+  NarrowPhaseInput input{mesh.data(), setup.motion, setup.accuracy.tolerance, setup.accuracy.extent, options};
+  // Where times are compared, all are exact or none is.
+  input.exact_times = options.exactness == Exactness::exact &&
+                      (collect != Collect::all || limited.most < std::numeric_limits<std::size_t>::max());
+  input.rest = setup.rest.get();
+  return input;
+}
+
+void sharpen(const NarrowPhase& narrow, double latest, std::vector<FoundPair>& found, Budget& budget) {
   for (FoundPair& f : found)
-    if (f.result.toi <= latest && f.result.toi_hi > f.result.toi) {
+    if (f.kind != PairKind::vertex_plane && f.result.toi <= latest && f.result.toi_hi > f.result.toi) {
       if (budget.interrupted()) return;
       narrow.sharpen(f.kind, f.result);
     }
@@ -121,13 +129,9 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   if (!setup.broad) return {};
   const double begun = setup.clock.seconds();
   const TraversalBounds limited = collect == Collect::all ? bounds(options) : TraversalBounds{};
-  NarrowPhaseInput input{mesh.data(), setup.motion, setup.accuracy.tolerance, setup.accuracy.extent, options};
-  // Where times are compared, all are exact or none is.
-  input.exact_times = options.exactness == Exactness::exact &&
-                      (collect != Collect::all || limited.most < std::numeric_limits<std::size_t>::max());
-  // Rounding all vertices to floats in every call is worth it unless most of them are static.
-  input.for_many = 2 * mesh.data().filter->static_ids.size() <= std::size_t(mesh.data().num_vertices);
-  input.rest = setup.rest.get();
+  NarrowPhaseInput input = narrow_phase_input(mesh, setup, options, collect, limited);
+  input.for_many = mesh.data().whole ? mesh.data().whole->rounds_all
+                                     : rounds_all(mesh.data().filter->static_ids.size(), mesh.num_vertices());
   const PairPredicate contacts{&setup, is_candidate};
   if (collect == Collect::first) {
     input.stored = true;
@@ -152,13 +156,28 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   if (shrunk.boxes) limits.whole = &*setup.tree;
   traversal = traverse_pairs(*setup.broad, narrow, collect, shrunk.t_max, budget, 1, limits);
   if (collect == Collect::first) traversal.limits.add(sampled);
-  if (collect == Collect::all) sharpen_earliest(narrow, traversal.found, budget);
+  if (collect == Collect::all && !mesh.data().whole)
+    sharpen(narrow, least_toi_hi(traversal.found), traversal.found, budget);
   add_planes(planes, limited.most, traversal);
   copy_counts(traversal, stats);
   add_counts(planes, stats);
   stats.seconds_narrow = setup.clock.seconds() - begun;
   stats.seconds_total = setup.clock.seconds();
   return traversal;
+}
+
+double least_toi_hi(const std::vector<FoundPair>& found) {
+  double least = INFINITY;
+  for (const FoundPair& f : found)
+    if (f.kind != PairKind::vertex_plane && f.result.outcome != PairOutcome::initial_separating)
+      least = std::min(least, f.result.toi_hi);
+  return least;
+}
+
+void sharpen_earliest(const Mesh& mesh, const StepSetup& setup, const Options& options, double latest,
+                      std::vector<FoundPair>& found, Budget& budget) {
+  sharpen(NarrowPhase(narrow_phase_input(mesh, setup, options, Collect::all, bounds(options))), latest, found,
+          budget);
 }
 
 StepResult step_of_motion(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1,

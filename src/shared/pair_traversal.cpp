@@ -315,7 +315,11 @@ void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget
     r.stats.looked_at = budget.done();
     return;
   }
-  const Limits& limits = traversal.limits;
+  if (const FoundPair* limiting = limit_step(traversal.limits, upper, t_max, r))
+    r.limiting = to_pair(mesh, *limiting);
+}
+
+const FoundPair* limit_step(const Limits& limits, double upper, double t_max, StepResult& r) {
   r.step = upper;
   r.toi = INFINITY;
   if (limits.contact && limits.contact->result.step_limit <= t_max) {
@@ -334,11 +338,11 @@ void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget
   if (r.step > 0 && limits.clear && limits.clear->result.clear_from > r.step)
     limiting = &*limits.clear, r.step = 0;
   if (r.step > 0 && limits.clear) r.shortest = limits.clear->result.clear_from;
-  if (limiting == nullptr) return;
+  if (limiting == nullptr) return nullptr;
   // Only rounding holds back at once a pair that starts apart, or parts.
   if (r.step == 0 && limiting->result.outcome != PairOutcome::initial_contact)
     r.outcome = Outcome::below_rounding;
-  r.limiting = to_pair(mesh, *limiting);
+  return limiting;
 }
 
 }  // namespace onset

@@ -9,6 +9,7 @@
 
 #include "broadphase/broad_phase.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "onset/export.hpp"
 #include "onset/mesh.hpp"
 #include "onset/step_size.hpp"
 #include "scene/motion/storing.hpp"
@@ -30,8 +31,8 @@ struct Limits {
   std::optional<FoundPair> stored;
   // The one with the latest clear_from > 0, of several the first by `before`.
   std::optional<FoundPair> clear;
-  void add(const FoundPair& found);
-  void add(const Limits& other);
+  ONSET_API void add(const FoundPair& found);
+  ONSET_API void add(const Limits& other);
 };
 
 // What a traversal collects:
@@ -93,5 +94,7 @@ void note_worst(const Mesh& mesh, const TraversalResult& traversal, Stats& stats
 // A spent budget makes the step 0.
 void limit_step(const Mesh& mesh, const TraversalResult& traversal, const Budget& budget, double upper,
                 double t_max, StepResult& result);
+// Does the same within the budget, but for StepResult::limiting: returns that pair, one of `limits`, or null.
+ONSET_API const FoundPair* limit_step(const Limits& limits, double upper, double t_max, StepResult& result);
 
 }  // namespace onset

@@ -19,7 +19,7 @@ namespace onset {
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test) {
   const double separation = largest_of_bodies(mesh, options), half = 0.5 * separation * (1 + 0x1p-50);
-  const bool has_static = mesh.filter->has_static();
+  const bool has_static = scene_has_static(mesh);
   const double inflation =
       has_static ? (half + margin) * (1 + 0x1p-50) : 0.5 * (separation + margin) * (1 + 0x1p-50);
   return {mesh, motion, inflation, t_max, test, options.instruction_set, half};
@@ -47,13 +47,14 @@ std::shared_ptr<BroadPhase> take_broad_phase(const Options& options, const Broad
   }
   const bool tree =
       options.broad_phase == BroadPhaseMethod::automatic || options.broad_phase == BroadPhaseMethod::bvh;
-  if (tree && input.mesh.broad_phases) return make_holding_tree(input, budget.stop());
+  // What a part decides is sorted out behind a tree, which make_broad_phase sees to.
+  if (tree && input.mesh.broad_phases && !input.mesh.whole) return make_holding_tree(input, budget.stop());
   return make_broad_phase(options.broad_phase, input, budget.stop());
 }
 
 // Eight a primitive are few enough beside its boxes, and more than most scenes have.
 std::size_t most_held(const MeshData& mesh, const Options& options, const Budget& budget) {
-  if (!options.hold_candidates || budget.counts_checks() || !mesh.broad_phases) return 0;
+  if (!options.hold_candidates || budget.counts_checks() || !mesh.broad_phases || mesh.whole) return 0;
   constexpr std::size_t kAPrimitive = 8;
   const std::size_t primitives = std::size_t(mesh.num_vertices) + mesh.edges.size() + mesh.faces.size();
   const auto fitting = std::size_t(options.memory_limit) / sizeof(IdPair);
@@ -72,7 +73,30 @@ StepSetup::~StepSetup() {
   if (motion.rows_last) motion.static_part->give_back(motion.axes, std::move(motion.x));
 }
 
-void StepSetup::widen(double by) { tree->inflation = (tree->inflation + std::max(by, 0.0)) * (1 + 0x1p-50); }
+BoxReach box_reach(const MeshData& data, const Motion& motion, const Options& options, StepSetup::Use use,
+                   double reach, double d_hat) {
+  using Use = StepSetup::Use;
+  const BoxTest test = use == Use::candidates ? BoxTest::swept : cheaper_box_test(data, motion);
+  // Boxes widened for a separation round, depending on where the scene lies. With this margin, boxes that
+  // just miss belong to pairs farther apart than any that is reported with checks left, so that results do
+  // not depend on that rounding (docs/theory.md, 13.5).
+  const bool widened = largest_of_bodies(data, options) > 0 || has_thickness(data);
+  const double margin = test != BoxTest::swept && widened ? reach : 0;
+  const BroadPhaseInput whole = broad_phase_input(data, motion, options, margin, 1.0, test);
+  BoxReach r{whole, whole};
+  const auto widen = [&](double by) {
+    r.tree.inflation = (r.tree.inflation + std::max(by, 0.0)) * (1 + 0x1p-50);
+  };
+  // Static boxes are not widened by it: the others take all.
+  const double share = scene_has_static(data) ? 1 : 0.5;
+  if (use != Use::contacts) r.rounding = rounding_of_distances(motion);
+  if (use == Use::stored_step) widen(share * (reach + kStoredRoundings * r.rounding - margin));
+  if (use == Use::candidates) widen(share * r.rounding);
+  if (use == Use::close || d_hat > 0)
+    r.tree.inflation = std::max(r.tree.inflation,
+                                share * euclidean_reach(data, options, std::max(d_hat, reach), r.rounding));
+  return r;
+}
 
 StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
                      Use use, Stats& stats, Budget& budget, double d_hat, Looks looks) {
@@ -82,33 +106,21 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
   stats.threads = current_threads();
   stats.instruction_set = to_string(resolve_instruction_set(options.instruction_set));
   if (motion.status != Outcome::free) return;
-  const BoxTest test = use == Use::candidates ? BoxTest::swept : cheaper_box_test(data, motion);
   accuracy = accuracy_of(data, motion, options);
   note(accuracy, stats);
   reach = reported_within(accuracy.tolerance, accuracy.extent);
-  // Boxes widened for a separation round, depending on where the scene lies. With this margin, boxes that
-  // just miss belong to pairs farther apart than any that is reported with checks left, so that results do
-  // not depend on that rounding (docs/theory.md, 13.5).
-  const bool widened = largest_of_bodies(data, options) > 0 || !data.thickness.empty();
-  const double margin = test != BoxTest::swept && widened ? reach : 0;
-  whole.emplace(broad_phase_input(data, motion, options, margin, 1.0, test));
-  tree.emplace(*whole);
+  const BoxReach boxes = box_reach(data, motion, options, use, reach, d_hat);
+  whole.emplace(boxes.whole);
+  tree.emplace(boxes.tree);
   tree->looks = looks;
   tree->most_held = most_held(data, options, budget);
-  const bool has_static = data.filter->has_static();
-  const double share = has_static ? 1 : 0.5;  // static boxes are not widened by it: the others take all
-  if (use != Use::contacts) rounding = rounding_of_distances(motion);
-  if (use == Use::stored_step) widen(share * (reach + kStoredRoundings * rounding - margin));
-  if (use == Use::candidates) widen(share * rounding);
-  if (use == Use::close || d_hat > 0)
-    tree->inflation =
-        std::max(tree->inflation, share * euclidean_reach(data, options, std::max(d_hat, reach), rounding));
+  rounding = boxes.rounding;
   if (use != Use::candidates) rest = rest_limits(data, options, budget);
   if (budget.spent()) return;
   broad = take_broad_phase(options, *tree, budget);
   if (!broad) return;
   if (is_kept(options.broad_phase)) pool_ = data.broad_phases;
-  slot_ = slot_of(options.broad_phase, test);
+  slot_ = slot_of(options.broad_phase, tree->test);
   stats.broad_phase = broad->name();
   stats.made_static_boxes = broad->made_static_boxes();
   stats.seconds_broad = clock.seconds();

@@ -19,6 +19,14 @@ namespace onset {
 BroadPhaseInput broad_phase_input(const MeshData& mesh, const Motion& motion, const Options& options,
                                   double margin, double t_max, BoxTest test);
 
+// How far boxes must reach in a call.
+struct BoxReach {
+  // The boxes of the whole step, for contacts of the exact motion and as the broad phase is made.
+  BroadPhaseInput whole, tree;
+  // rounding_of_distances(motion), where the use asks for it.
+  double rounding = 0;
+};
+
 struct StepSetup {
   // What boxes must reach (docs/theory.md, 13.5):
   // - contacts: contacts of the exact motion.
@@ -54,10 +62,12 @@ struct StepSetup {
   void give_back_broad();
 
  private:
-  void widen(double by);
-
   std::shared_ptr<BroadPhasePool> pool_;
   std::size_t slot_ = 0;
 };
+
+// Returns that for a motion of a mesh. reach: reported_within its accuracy.
+BoxReach box_reach(const MeshData& mesh, const Motion& motion, const Options& options, StepSetup::Use use,
+                   double reach, double d_hat);
 
 }  // namespace onset
