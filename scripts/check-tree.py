@@ -15,7 +15,7 @@ import pathlib
 import re
 import sys
 
-TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "apps", "python", "tests", "cmake", "packaging", "scripts", "docs"]
+TOPS = ["include", "base", "scene", "broadphase", "narrowphase", "src", "mpi", "apps", "python", "tests", "cmake", "packaging", "scripts", "docs"]
 CPP = {".cpp", ".hpp", ".inl"}
 SOURCES = CPP | {".py", ".sh", ".cmake", ".txt", ".in"}
 LIBRARY = ("include/", "base/", "scene/", "broadphase/", "narrowphase/", "src/")
@@ -113,7 +113,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+(["<])([^">]+)[">]', re.MULTIL
 
 def find(root, path, name):
     """The file of this repository that an include means, if it is one."""
-    places = ["include/", ""]
+    places = ["include/", "mpi/include/", ""]
     if path.startswith(("apps/", "tests/apps/")):
         places = ["apps/", "include/", ""]
     for place in [*places, folder_of(path)]:
@@ -133,7 +133,8 @@ def check_includes(root, rules, path, text):
         for pattern, places in ONE_PLACE.items():
             if path.startswith(LIBRARY) and bracket == "<" and re.match(pattern, f"<{name}>") and not path.startswith(places):
                 yield f"{line}, which only {', '.join(places)} may"
-        to = find(root, path, name) if bracket == '"' else ("include/" + name if name.startswith("onset/") else None)
+        public = ("mpi/include/" if name.startswith("onset/mpi/") else "include/") + name
+        to = find(root, path, name) if bracket == '"' else (public if name.startswith("onset/") else None)
         if to is None or not (root / to).is_file():
             if bracket == "<" and name.startswith("onset/"):
                 yield f"{line}, which is not there"

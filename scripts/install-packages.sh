@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs the Debian or Ubuntu packages that are missing, and nothing when none is.
-#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python, site, packages, arm
+#   install-packages.sh GROUP...     groups: library, apps, tests, peers, clang, tidy, profile, python, site, packages, arm,
+#                                    mpi, petsc
 set -eu
 
 library="g++ cmake ninja-build libeigen3-dev libtbb-dev libboost-dev"
@@ -14,6 +15,8 @@ python="python3 python3-dev python3-venv ca-certificates libegl1 libgl1-mesa-dri
 site="doxygen python3 python3-venv ca-certificates"
 packages="debootstrap dpkg-dev file help2man lintian"
 arm="g++-aarch64-linux-gnu qemu-user"
+mpi="libopenmpi-dev openmpi-bin libmpich-dev mpich nlohmann-json3-dev"
+petsc="petsc-dev"
 
 wanted=
 for group; do
@@ -29,6 +32,8 @@ for group; do
     site) wanted="$wanted $site" ;;
     packages) wanted="$wanted $packages" ;;
     arm) wanted="$wanted $arm" ;;
+    mpi) wanted="$wanted $mpi" ;;
+    petsc) wanted="$wanted $petsc" ;;
     *) echo "install-packages.sh: no group '$group'" >&2; exit 2 ;;
   esac
 done

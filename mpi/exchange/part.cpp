@@ -1,0 +1,236 @@
+#include "mpi/exchange/part.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "mpi/exchange/ghosts.hpp"
+#include "mpi/scene/part_rules.hpp"
+#include "scene/primitive_filter.hpp"
+#include "scene/rules.hpp"
+
+namespace onset::mpi {
+namespace {
+
+// Where a vertex of the part comes from: a slot (rank -1), or a row of a rank's message.
+struct Source {
+  int id, rank, row;
+};
+
+class Assembly {
+ public:
+  Assembly(const Mesh::Impl& m, const OwnMotion& own, const Ghosts& ghosts)
+      : m_(m), own_(own), ghosts_(ghosts) {}
+
+  Part run() {
+    auto data = std::make_shared<MeshData>();
+    auto whole = std::make_shared<WholeScene>(own_.whole);
+    data->dimension = m_.dimension;
+    list_vertices(*whole);
+    data->num_vertices = data->num_full_vertices = int(sources_.size());
+    add_edges(*data, *whole);
+    add_faces(*data, *whole);
+    CollisionRules rules = rules_of_vertices();
+    rules.points = std::move(points_);
+    name_pairs(*whole, rules);
+    apply_rules(rules, *data);
+    put_tables(m_, *data);
+    data->thickness = std::move(rules.thickness);
+    data->thickest_elsewhere = m_.thickest;
+    data->rules = std::make_shared<const CollisionRules>();
+    Part part;
+    put_positions(part);
+    part.whole = whole, data->whole = std::move(whole);
+    finish_mesh(*data);
+    part.mesh = onset::Mesh(std::shared_ptr<const MeshData>(std::move(data)));
+    return part;
+  }
+
+ private:
+  const GhostVertex& ghost(const Source& s) const {
+    return ghosts_.vertices[std::size_t(s.rank)][std::size_t(s.row)];
+  }
+
+  // Orders all vertices by id, each once; those of slots before those of messages.
+  void list_vertices(WholeScene& whole) {
+    std::vector<Source> arrived;
+    for (std::size_t r = 0; r < ghosts_.vertices.size(); ++r)
+      for (std::size_t i = 0; i < ghosts_.vertices[r].size(); ++i)
+        arrived.push_back({ghosts_.vertices[r][i].id, int(r), int(i)});
+    std::sort(arrived.begin(), arrived.end(), [](const Source& x, const Source& y) { return x.id < y.id; });
+    std::vector<int>&ids = whole.id[0], &owners = whole.owner[0];
+    const std::size_t most = m_.slots() + arrived.size();
+    sources_.reserve(most), ids.reserve(most), owners.reserve(most);
+    const auto add = [&](const Source& s, int owner) {
+      if (!ids.empty() && ids.back() == s.id) return;
+      sources_.push_back(s), ids.push_back(s.id), owners.push_back(owner);
+    };
+    auto next = arrived.begin();
+    for (const int slot : m_.by_id) {
+      const int id = m_.id[std::size_t(slot)];
+      for (; next != arrived.end() && next->id < id; ++next) add(*next, ghost(*next).owner);
+      add({id, -1, slot}, m_.owner[std::size_t(slot)]);
+    }
+    for (; next != arrived.end(); ++next) add(*next, ghost(*next).owner);
+    ids_ = &ids;
+    place_of_slot_.resize(m_.slots());
+    for (std::size_t v = 0; v < sources_.size(); ++v)
+      if (sources_[v].rank < 0) place_of_slot_[std::size_t(sources_[v].row)] = int(v);
+  }
+
+  int place(int id) const { return int(std::lower_bound(ids_->begin(), ids_->end(), id) - ids_->begin()); }
+  bool has(const std::vector<int>& ids, int id, int& place) const {
+    const auto at = std::lower_bound(ids.begin(), ids.end(), id);
+    place = int(at - ids.begin());
+    return at != ids.end() && *at == id;
+  }
+
+  // Merges own elements and those that arrived, by id, and calls add(id, owner, vertices of the part).
+  template <std::size_t N, class Arrived, class Add>
+  void merge(const std::vector<Element<N>>& own, const PerRank<Arrived>& arrived, const Add& add) const {
+    std::vector<std::pair<const Arrived*, int>> others;
+    for (std::size_t r = 0; r < arrived.size(); ++r)
+      for (const Arrived& e : arrived[r]) others.push_back({&e, int(r)});
+    std::sort(others.begin(), others.end(),
+              [](const auto& x, const auto& y) { return x.first->id < y.first->id; });
+    auto next = others.begin();
+    const auto add_arrived = [&] {
+      std::array<int, N> v;
+      for (std::size_t k = 0; k < N; ++k)
+        v[k] = place(ghosts_.vertices[std::size_t(next->second)][std::size_t(next->first->vertices[k])].id);
+      add(next->first->id, next->second, v);
+      ++next;
+    };
+    for (const Element<N>& e : own) {
+      while (next != others.end() && next->first->id < e.id) add_arrived();
+      std::array<int, N> v;
+      for (std::size_t k = 0; k < N; ++k) v[k] = place_of_slot_[std::size_t(e.vertices[k])];
+      add(e.id, m_.comm.rank(), v);
+    }
+    while (next != others.end()) add_arrived();
+  }
+
+  void add_edges(MeshData& data, WholeScene& whole) {
+    merge<2>(m_.own_edges, ghosts_.edges, [&](int id, int owner, const std::array<int, 2>& v) {
+      whole.id[1].push_back(id), whole.owner[1].push_back(owner);
+      if (v[0] == v[1])
+        points_.push_back(v[0]);
+      else
+        data.edges.push_back(v);
+    });
+  }
+  void add_faces(MeshData& data, WholeScene& whole) {
+    merge<3>(m_.own_faces, ghosts_.faces, [&](int id, int owner, const std::array<int, 3>& v) {
+      whole.id[2].push_back(id), whole.owner[2].push_back(owner);
+      data.faces.push_back(v);
+    });
+  }
+
+  // Takes a rule of slots and messages to the vertices of the part.
+  template <class Values, class T>
+  void take(const std::vector<T>& by_slot, T GhostRules::*of_ghost, Values& values) const {
+    if (by_slot.empty()) return;
+    values.reserve(sources_.size());
+    for (const Source& s : sources_)
+      values.push_back(s.rank < 0 ? by_slot[std::size_t(s.row)]
+                                  : ghosts_.rules[std::size_t(s.rank)][std::size_t(s.row)].*of_ghost);
+  }
+  CollisionRules rules_of_vertices() const {
+    CollisionRules rules;
+    take(m_.thickness, &GhostRules::thickness, rules.thickness);
+    take(m_.body, &GhostRules::body, rules.bodies);
+    take(m_.group, &GhostRules::group, rules.groups);
+    take(m_.mask, &GhostRules::mask, rules.masks);
+    take(m_.is_static, &GhostRules::is_static, rules.static_vertices);
+    rules.weld = m_.tables.weld;
+    rules.planes = m_.tables.planes;
+    return rules;
+  }
+
+  // Rules that name vertices and pairs, as far as they are here.
+  void name_pairs(const WholeScene& whole, CollisionRules& rules) const {
+    int a = 0, b = 0;
+    for (const auto& [v, w] : m_.tables.excluded_vertices)
+      if (has(whole.id[0], v, a) && has(whole.id[0], w, b)) rules.excluded_vertices.push_back({a, b});
+    for (const Pair& p : m_.tables.excluded_pairs) {
+      const std::vector<int>& first = whole.id[p.kind == PairKind::edge_edge ? 1 : 0];
+      if (!has(first, p.a, a)) continue;
+      if (p.kind == PairKind::vertex_plane)
+        b = p.b;
+      else if (!has(whole.id[p.kind == PairKind::vertex_face ? 2 : 1], p.b, b))
+        continue;
+      rules.excluded_pairs.push_back({p.kind, a, b, {}});
+    }
+    for (const Intersection& p : m_.tables.excluded_intersections)
+      if (has(whole.id[1], p.edge, a) && has(whole.id[m_.dimension == 2 ? 1 : 2], p.face, b)) {
+        rules.excluded_intersections.push_back({});
+        rules.excluded_intersections.back().edge = a, rules.excluded_intersections.back().face = b;
+      }
+  }
+
+  void put_positions(Part& part) const {
+    const std::size_t columns = std::size_t(m_.dimension);
+    part.x_t0.reserve(columns * sources_.size()), part.x_t1.reserve(columns * sources_.size());
+    for (const Source& s : sources_) {
+      const double* x_t0 = s.rank < 0 ? own_.motion.t0(s.row) : ghost(s).x;
+      const double* x_t1 = s.rank < 0 ? own_.end(s.row) : ghost(s).x + 3;
+      part.x_t0.insert(part.x_t0.end(), x_t0, x_t0 + columns);
+      part.x_t1.insert(part.x_t1.end(), x_t1, x_t1 + columns);
+    }
+  }
+
+  const Mesh::Impl& m_;
+  const OwnMotion& own_;
+  const Ghosts& ghosts_;
+  std::vector<Source> sources_;  // by vertex of the part
+  const std::vector<int>* ids_ = nullptr;
+  std::vector<int> place_of_slot_, points_;
+};
+
+void count_ghosts(const Mesh::Impl& m, const Part& part) {
+  m.exchange.pairs = 0;
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    const std::vector<int>& owners = part.whole->owner[kind];
+    m.exchange.owned[kind] = std::count(owners.begin(), owners.end(), m.comm.rank());
+    m.exchange.ghosts[kind] = std::int64_t(owners.size()) - m.exchange.owned[kind];
+  }
+}
+
+}  // namespace
+
+void Part::rename(Pair& pair) const {
+  if (pair.a < 0) return;
+  pair.a =
+      id_of(pair.kind == PairKind::vertex_plane ? Primitive::vertex : first_primitive(pair.kind), pair.a);
+  if (pair.kind != PairKind::vertex_plane) pair.b = id_of(second_primitive(pair.kind), pair.b);
+  rename_vertices(pair.vertices);
+}
+
+std::array<int, 4> Part::owners_of(const Pair& pair) const {
+  std::array<int, 4> owners{-1, -1, -1, -1};
+  for (std::size_t i = 0; i < 4; ++i)
+    if (pair.vertices[i] >= 0) owners[i] = whole->owner[0][std::size_t(pair.vertices[i])];
+  return owners;
+}
+
+Part make_part(const Mesh::Impl& m, OwnMotion&& own, double inflation) {
+  const Ghosts ghosts = exchange_ghosts(m, own, inflation);
+  Part part;
+  m.comm.agreed([&] {
+    part = Assembly(m, own, ghosts).run();
+    count_ghosts(m, part);
+  });
+  own = OwnMotion();
+  return part;
+}
+
+MeshData reach_data(const Mesh::Impl& m, const WholeScene& whole) {
+  MeshData data;
+  data.dimension = m.dimension;
+  data.body_separations = m.checked.body_separations;
+  if (m.thickest > 0) data.thickness = {m.thickest};
+  data.thickest_elsewhere = m.thickest;
+  data.whole = std::make_shared<const WholeScene>(whole);
+  return data;
+}
+
+}  // namespace onset::mpi
