@@ -19,7 +19,7 @@ Part part_at(const Mesh::Impl& m, const Positions& x, const Options& options, bo
   m.comm.agreed([&] {
     if (close) inflation = largest_inflation(reach_data(m, own.whole), options, StepSetup::Use::close, d_hat);
   });
-  return make_part(m, std::move(own), inflation);
+  return make_part(m, std::move(own), inflation, close ? Meetings::contacts : Meetings::intersections);
 }
 
 // (c) Ends a call on pairs at rest: all ranks have one outcome, and no pairs where one has none.

@@ -108,33 +108,43 @@ Box OwnBoxes::box_of(const std::array<int, N>& slots) const {
   return box;
 }
 
-Box OwnBoxes::box_of(const Item& item) const {
-  const std::size_t row = std::size_t(item.row);
-  if (item.kind == int(Primitive::vertex)) return box_of(std::array<int, 1>{item.row});
-  return item.kind == int(Primitive::edge) ? box_of(mesh_.own_edges[row].vertices)
-                                           : box_of(mesh_.own_faces[row].vertices);
+Box OwnBoxes::box_of(int row) const {
+  if (kind_ == Primitive::vertex) return box_of(std::array<int, 1>{row});
+  return kind_ == Primitive::edge ? box_of(mesh_.own_edges[std::size_t(row)].vertices)
+                                  : box_of(mesh_.own_faces[std::size_t(row)].vertices);
 }
 
-OwnBoxes::OwnBoxes(const Mesh::Impl& mesh, const Motion& motion, double inflation)
-    : mesh_(mesh), motion_(motion), inflation_(inflation) {
-  std::vector<std::pair<std::uint64_t, Item>> placed;
+OwnBoxes::OwnBoxes(const Mesh::Impl& mesh, const Motion& motion, Primitive kind, double inflation)
+    : mesh_(mesh), motion_(motion), kind_(kind), inflation_(inflation) {
+  const std::vector<TakesPart>& takes_part = mesh.takes_part[std::size_t(kind)];
   Box all = Box::none();
-  for (int kind = 0; kind < 3; ++kind) {
-    const auto& takes_part = mesh.takes_part[std::size_t(kind)];
-    for (std::size_t row = 0; row < takes_part.size(); ++row)
-      if (takes_part[row] != TakesPart::no) placed.push_back({0, {kind, int(row)}});
-  }
-  for (const auto& [code, item] : placed) all.add(box_of(item));
-  for (auto& [code, item] : placed) code = place(box_of(item), all);
-  std::stable_sort(placed.begin(), placed.end(),
-                   [](const auto& x, const auto& y) { return x.first < y.first; });
-  std::vector<Box> groups((placed.size() + kItems - 1) / kItems, Box::none());
-  items_.reserve(placed.size());
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    items_.push_back(placed[i].second);
-    groups[i / kItems].add(box_of(placed[i].second));
+  for (std::size_t row = 0; row < takes_part.size(); ++row)
+    if (takes_part[row] != TakesPart::no) all.add(box_of(int(row)));
+  std::vector<std::pair<std::uint64_t, int>> placed;
+  for (std::size_t row = 0; row < takes_part.size(); ++row)
+    if (takes_part[row] != TakesPart::no) placed.push_back({place(box_of(int(row)), all), int(row)});
+  std::sort(placed.begin(), placed.end());
+  std::vector<Box> groups((placed.size() + kGroup - 1) / kGroup, Box::none());
+  rows_.reserve(placed.size());
+  for (const auto& [code, row] : placed) {
+    groups[rows_.size() / kGroup].add(box_of(row));
+    rows_.push_back(row);
   }
   tree_ = BoxTree(std::move(groups));
+}
+
+std::optional<Primitive> partner_of(Primitive kind, int dimension, Meetings meetings) {
+  if (meetings == Meetings::intersections) {
+    if (kind == Primitive::vertex) return std::nullopt;
+    if (dimension == 2) return kind == Primitive::edge ? std::optional(Primitive::edge) : std::nullopt;
+    return kind == Primitive::edge ? Primitive::face : Primitive::edge;
+  }
+  if (dimension == 2) {
+    if (kind == Primitive::face) return std::nullopt;
+    return kind == Primitive::vertex ? Primitive::edge : Primitive::vertex;
+  }
+  if (kind == Primitive::edge) return Primitive::edge;
+  return kind == Primitive::vertex ? Primitive::face : Primitive::vertex;
 }
 
 }  // namespace onset::mpi

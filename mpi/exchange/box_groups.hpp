@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "mpi/scene/mesh_impl.hpp"
@@ -52,29 +53,32 @@ class BoxTree {
   std::vector<std::vector<Box>> levels_{1};  // leaves first
 };
 
-// What this rank owns, along a space curve, in groups with a box.
+// What a call asks about in pairs: contacts and distances, or edges that go through faces.
+enum class Meetings { contacts, intersections };
+
+// Returns the kind of primitives that one of this kind meets; nothing where it meets none.
+std::optional<Primitive> partner_of(Primitive kind, int dimension, Meetings meetings);
+
+// What this rank owns of one kind, along a space curve, in groups with a box.
 class OwnBoxes {
  public:
   // inflation: at least what the broad phase widens a primitive by, thickness apart.
-  OwnBoxes(const Mesh::Impl& mesh, const Motion& motion, double inflation);
+  OwnBoxes(const Mesh::Impl& mesh, const Motion& motion, Primitive kind, double inflation);
 
-  struct Item {
-    int kind, row;  // row of the vertices, own_edges or own_faces
-  };
   const BoxTree& tree() const { return tree_; }
-  // Calls f(item) for each primitive that meets a box of `other`.
+  Box box_of(int row) const;
+  // Calls f(row) for each primitive that meets a box of `other`: a row of the vertices, own_edges or
+  // own_faces.
   template <class F>
   void each_meeting(const BoxTree& other, F&& f) const {
     tree_.each_meeting(other, [&](std::size_t group) {
-      const std::size_t last = std::min(items_.size(), (group + 1) * kItems);
-      for (std::size_t i = group * kItems; i < last; ++i)
-        if (other.meets(box_of(items_[i]))) f(items_[i]);
+      const std::size_t last = std::min(rows_.size(), (group + 1) * kGroup);
+      for (std::size_t i = group * kGroup; i < last; ++i)
+        if (other.meets(box_of(rows_[i]))) f(rows_[i]);
     });
   }
-  Box box_of(const Item& item) const;
-  const std::vector<Item>& items() const { return items_; }
 
-  static constexpr std::size_t kItems = 2;
+  static constexpr std::size_t kGroup = 8;
 
  private:
   template <std::size_t N>
@@ -82,8 +86,9 @@ class OwnBoxes {
 
   const Mesh::Impl& mesh_;
   const Motion& motion_;
+  const Primitive kind_;
   double inflation_;
-  std::vector<Item> items_;
+  std::vector<int> rows_;
   BoxTree tree_;
 };
 

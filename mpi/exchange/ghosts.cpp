@@ -1,15 +1,16 @@
 #include "mpi/exchange/ghosts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
-#include "mpi/exchange/box_groups.hpp"
+#include "scene/primitive.hpp"
 
 namespace onset::mpi {
 namespace {
 
-// A rank has at least so many boxes that all others are told of, up to four times as many.
-constexpr std::size_t kBoxesForAll = 8;
+// A rank has at least so many boxes of a kind that all others are told of, up to four times as many.
+constexpr std::size_t kBoxesForAll = 4;
 
 GhostRules rules_of(const Mesh::Impl& m, std::size_t slot) {
   GhostRules r{};
@@ -20,29 +21,42 @@ GhostRules rules_of(const Mesh::Impl& m, std::size_t slot) {
   return r;
 }
 
-// (c) Returns the boxes of other ranks that may concern this one, by rank; those of a rank lie near each
-// other in their order.
-PerRank<Box> exchange_boxes(const Mesh::Impl& m, const OwnBoxes& own) {
+// By kind; null where a call asks about none of these.
+using AllOwnBoxes = std::array<std::unique_ptr<OwnBoxes>, 3>;
+struct KindBox {
+  Box box;
+  Primitive kind;
+};
+
+// (c) Returns boxes of other ranks, with what is in them, that may concern this one, by rank; those of a kind
+// lie near each other in their order.
+PerRank<KindBox> exchange_boxes(const Mesh::Impl& m, const AllOwnBoxes& own, Meetings meetings) {
   struct RankBox {
-    Box box;
+    KindBox of;
     int rank;
   };
   std::vector<RankBox> mine;
   m.comm.agreed([&] {
-    for (const Box& box : own.tree().cut(kBoxesForAll)) mine.push_back({box, m.comm.rank()});
+    for (const Primitive kind : kPrimitives)
+      if (const auto& boxes = own[std::size_t(kind)])
+        for (const Box& box : boxes->tree().cut(kBoxesForAll)) mine.push_back({{box, kind}, m.comm.rank()});
   });
   const std::vector<RankBox> all = m.comm.gather(mine);
-  PerRank<Box> finer;
+  PerRank<KindBox> finer;
   m.comm.agreed([&] {
     finer.resize(std::size_t(m.comm.size()));
     for (std::size_t first = 0, last; first < all.size(); first = last) {
+      const int rank = all[first].rank;
+      const Primitive theirs = all[first].of.kind;
       std::vector<Box> boxes;
-      for (last = first; last < all.size() && all[last].rank == all[first].rank; ++last)
-        boxes.push_back(all[last].box);
-      if (all[first].rank == m.comm.rank()) continue;
-      std::vector<Box>& to = finer[std::size_t(all[first].rank)];
-      own.tree().each_meeting(BoxTree(std::move(boxes)),
-                              [&](std::size_t group) { to.push_back(own.tree().leaves()[group]); });
+      for (last = first; last < all.size() && all[last].rank == rank && all[last].of.kind == theirs; ++last)
+        boxes.push_back(all[last].of.box);
+      if (rank == m.comm.rank()) continue;
+      const Primitive kind = *partner_of(theirs, m.dimension, meetings);
+      const OwnBoxes& here = *own[std::size_t(kind)];
+      here.each_meeting(BoxTree(std::move(boxes)), [&](int row) {
+        finer[std::size_t(rank)].push_back({here.box_of(row), kind});
+      });
     }
   });
   return m.comm.exchange(finer);
@@ -54,17 +68,17 @@ class Packer {
   Packer(const Mesh::Impl& m, const OwnMotion& own, Ghosts& out)
       : m_(m), own_(own), out_(out), place_(m.slots()), packed_for_(m.slots(), -1) {}
 
-  void pack(const OwnBoxes& own, const BoxTree& theirs, std::size_t rank) {
+  // Packs what is owned here of a kind and meets one of `theirs`.
+  void pack(const OwnBoxes& own, Primitive kind, const BoxTree& theirs, std::size_t rank) {
     rank_ = rank;
-    own.each_meeting(theirs, [&](const OwnBoxes::Item& item) {
-      const std::size_t row = std::size_t(item.row);
-      if (item.kind == int(Primitive::vertex)) {
-        vertex(item.row);
-      } else if (item.kind == int(Primitive::edge)) {
-        const Element<2>& e = m_.own_edges[row];
+    own.each_meeting(theirs, [&](int row) {
+      if (kind == Primitive::vertex) {
+        vertex(row);
+      } else if (kind == Primitive::edge) {
+        const Element<2>& e = m_.own_edges[std::size_t(row)];
         out_.edges[rank].push_back({e.id, {vertex(e.vertices[0]), vertex(e.vertices[1])}});
       } else {
-        const Element<3>& f = m_.own_faces[row];
+        const Element<3>& f = m_.own_faces[std::size_t(row)];
         out_.faces[rank].push_back(
             {f.id, {vertex(f.vertices[0]), vertex(f.vertices[1]), vertex(f.vertices[2])}});
       }
@@ -94,17 +108,28 @@ class Packer {
 
 }  // namespace
 
-Ghosts exchange_ghosts(const Mesh::Impl& m, const OwnMotion& motion, double inflation) {
+Ghosts exchange_ghosts(const Mesh::Impl& m, const OwnMotion& motion, double inflation, Meetings meetings) {
   Ghosts out, in;
-  std::unique_ptr<OwnBoxes> own;
-  m.comm.agreed([&] { own = std::make_unique<OwnBoxes>(m, motion.motion, inflation); });
-  PerRank<Box> theirs = exchange_boxes(m, *own);
+  AllOwnBoxes own;
+  m.comm.agreed([&] {
+    for (const Primitive kind : kPrimitives)
+      if (partner_of(kind, m.dimension, meetings))
+        own[std::size_t(kind)] = std::make_unique<OwnBoxes>(m, motion.motion, kind, inflation);
+  });
+  const PerRank<KindBox> theirs = exchange_boxes(m, own, meetings);
   m.comm.agreed([&] {
     const std::size_t ranks = std::size_t(m.comm.size());
     out.vertices.resize(ranks), out.rules.resize(ranks), out.edges.resize(ranks), out.faces.resize(ranks);
     Packer packer(m, motion, out);
-    for (std::size_t r = 0; r < ranks; ++r)
-      if (!theirs[r].empty()) packer.pack(*own, BoxTree(std::move(theirs[r])), r);
+    for (std::size_t r = 0; r < ranks; ++r) {
+      std::array<std::vector<Box>, 3> boxes;
+      for (const KindBox& b : theirs[r]) boxes[std::size_t(b.kind)].push_back(b.box);
+      for (const Primitive kind : kPrimitives) {
+        const auto partner = partner_of(kind, m.dimension, meetings);
+        if (!partner || boxes[std::size_t(*partner)].empty()) continue;
+        packer.pack(*own[std::size_t(kind)], kind, BoxTree(std::move(boxes[std::size_t(*partner)])), r);
+      }
+    }
   });
   in.vertices = m.comm.exchange(out.vertices);
   if (m.has_rules) in.rules = m.comm.exchange(out.rules);

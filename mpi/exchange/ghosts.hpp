@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "mpi/exchange/box_groups.hpp"
 #include "mpi/scene/motion_of_parts.hpp"
 
 namespace onset::mpi {
@@ -38,6 +39,6 @@ struct Ghosts {
 
 // (c) Gathers a few boxes of each rank, sends finer ones to those that they may concern, and then what meets
 // these. What another rank owns and may be in a candidate with something owned here is among the result.
-Ghosts exchange_ghosts(const Mesh::Impl& mesh, const OwnMotion& own, double inflation);
+Ghosts exchange_ghosts(const Mesh::Impl& mesh, const OwnMotion& own, double inflation, Meetings meetings);
 
 }  // namespace onset::mpi

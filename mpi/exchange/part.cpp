@@ -212,8 +212,8 @@ std::array<int, 4> Part::owners_of(const Pair& pair) const {
   return owners;
 }
 
-Part make_part(const Mesh::Impl& m, OwnMotion&& own, double inflation) {
-  const Ghosts ghosts = exchange_ghosts(m, own, inflation);
+Part make_part(const Mesh::Impl& m, OwnMotion&& own, double inflation, Meetings meetings) {
+  const Ghosts ghosts = exchange_ghosts(m, own, inflation, meetings);
   Part part;
   m.comm.agreed([&] {
     part = Assembly(m, own, ghosts).run();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "mpi/exchange/box_groups.hpp"
 #include "mpi/scene/motion_of_parts.hpp"
 #include "onset/mesh.hpp"
 #include "onset/options.hpp"
@@ -37,7 +38,8 @@ struct Part {
 };
 
 // (c) Sends ghosts and makes the part. inflation: how far boxes reach (largest_inflation).
-Part make_part(const Mesh::Impl& mesh, OwnMotion&& own, double inflation);
+Part make_part(const Mesh::Impl& mesh, OwnMotion&& own, double inflation,
+               Meetings meetings = Meetings::contacts);
 
 // What largest_inflation asks of a mesh, for a scene.
 MeshData reach_data(const Mesh::Impl& mesh, const WholeScene& whole);
