@@ -9,6 +9,7 @@
 #include "base/float_environment.hpp"
 #include "mpi/scene/mesh_impl.hpp"
 #include "mpi/scene/part_rules.hpp"
+#include "mpi/scene/rings.hpp"
 #include "onset/mesh.hpp"
 
 namespace onset::mpi {
@@ -56,7 +57,6 @@ void check_part(const MeshPart& part) {
   if (part.dimension != 2 && part.dimension != 3)
     reject("dimension is " + std::to_string(part.dimension) + "; it must be 3 or 2");
   if (part.dimension == 2 && part.faces.rows() > 0) reject("a mesh in the plane has no faces");
-  if (part.rules.excluded_rings != 0) reject("excluded_rings is not offered over ranks");
   if (part.rules.rest_positions.size() > 0) reject("rest_positions is not offered over ranks");
 }
 
@@ -159,6 +159,7 @@ Mesh::Mesh(MPI_Comm comm, const MeshPart& part) : impl_(std::make_unique<Impl>(c
   find_elements(part, m);
   find_slots(part, owners, m);
   take_rules(part, m);
+  find_rings(owners, part.rules.excluded_rings, m);
   find_partners(m);
   choose_samples(m);
 }

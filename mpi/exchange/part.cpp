@@ -5,6 +5,7 @@
 
 #include "mpi/exchange/ghosts.hpp"
 #include "mpi/scene/part_rules.hpp"
+#include "scene/pairs/vertex_rings.hpp"
 #include "scene/primitive_filter.hpp"
 #include "scene/rules.hpp"
 
@@ -34,6 +35,7 @@ class Assembly {
     name_pairs(*whole, rules);
     apply_rules(rules, *data);
     put_tables(m_, *data);
+    if (m_.near.rings > 0) data->rings = near_vertices();
     data->thickness = std::move(rules.thickness);
     data->thickest_elsewhere = m_.thickest;
     data->rules = std::make_shared<const CollisionRules>();
@@ -144,6 +146,19 @@ class Assembly {
     rules.weld = m_.tables.weld;
     rules.planes = m_.tables.planes;
     return rules;
+  }
+
+  // Of a pair that is decided here one primitive is owned here, and its vertices are slots: what is near
+  // slots is all that matters.
+  std::shared_ptr<const VertexRings> near_vertices() const {
+    std::vector<std::array<int, 2>> pairs;
+    for (std::size_t slot = 0; slot < m_.slots(); ++slot)
+      for (std::size_t i = m_.near.first[slot]; i < m_.near.first[slot + 1]; ++i) {
+        int w = 0;
+        const int v = place_of_slot_[slot];
+        if (has(*ids_, m_.near.ids[i], w)) pairs.push_back({std::min(v, w), std::max(v, w)});
+      }
+    return std::make_shared<const VertexRings>(int(sources_.size()), m_.near.rings, std::move(pairs));
   }
 
   // Rules that name vertices and pairs, as far as they are here.

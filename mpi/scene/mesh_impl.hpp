@@ -16,6 +16,13 @@ namespace onset::mpi {
 // How a primitive takes part in steps, as PrimitiveFilter has it for the whole scene.
 enum class TakesPart : char { no, moving, still };
 
+// The ids of the vertices within so many edges of each slot, of which row i is [first[i], first[i + 1]).
+struct NearVertices {
+  int rings = 0;  // 0: not asked for
+  std::vector<std::size_t> first;
+  std::vector<int> ids;
+};
+
 struct Mesh::Impl {
   explicit Impl(MPI_Comm of) : comm(of) {}
 
@@ -44,6 +51,7 @@ struct Mesh::Impl {
   CollisionRules tables;
   MeshData checked;
   double thickest = 0;
+  NearVertices near;
 
   // By kind, of what is owned here; `still` ones are wholly static.
   std::array<std::vector<TakesPart>, 3> takes_part;

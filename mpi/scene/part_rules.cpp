@@ -44,7 +44,7 @@ class Hash {
 
 std::uint64_t hash_of(const CollisionRules& r) {
   Hash hash;
-  hash.add(r.weld), hash.add(r.rest_share);
+  hash.add(r.weld), hash.add(r.rest_share), hash.add(r.excluded_rings);
   hash.add_all(r.rigid_bodies), hash.add_all(r.bodies_without_self_collision);
   hash.add_all(r.excluded_bodies), hash.add_all(r.excluded_vertices);
   hash.add(r.body_separations.size());
@@ -121,6 +121,7 @@ void check_names(const CollisionRules& tables, const Mesh::Impl& m) {
 void check_tables(const CollisionRules& tables, int bodies, const Mesh::Impl& m, MeshData& checked) {
   CollisionRules rules = tables;
   rules.excluded_vertices = {}, rules.excluded_pairs = {}, rules.excluded_intersections = {};
+  rules.excluded_rings = 0;
   checked.num_vertices = bodies, checked.dimension = m.dimension;
   rules.bodies.resize(std::size_t(bodies));
   std::iota(rules.bodies.begin(), rules.bodies.end(), 0);

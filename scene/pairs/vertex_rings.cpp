@@ -96,6 +96,18 @@ VertexRings::VertexRings(const MeshData& mesh, int rings, std::size_t most)
   larger_.shrink_to_fit();
 }
 
+VertexRings::VertexRings(int vertices, int rings, std::vector<std::array<int, 2>> near)
+    : rings_(rings), first_(std::size_t(vertices) + 1, 0), joined_(std::size_t(vertices), false) {
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (const auto& [v, w] : near) {
+    ++first_[std::size_t(v) + 1];
+    larger_.push_back(w);
+    joined_[std::size_t(v)] = joined_[std::size_t(w)] = true;
+  }
+  for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+}
+
 bool VertexRings::near(int v, int w) const {
   if (v > w) std::swap(v, w);
   const int* row = larger_.data();

@@ -1,11 +1,13 @@
 // Vertices that are near each other on the mesh, along its edges.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "onset/export.hpp"
 #include "scene/pair_sink.hpp"
 
 namespace onset {
@@ -13,7 +15,7 @@ namespace onset {
 struct MeshData;
 
 // The edges of a mesh by vertex, without points.
-class EdgeGraph {
+class ONSET_API EdgeGraph {
  public:
   explicit EdgeGraph(const MeshData& mesh);
   const int* begin(int v) const { return neighbours_.data() + first_[std::size_t(v)]; }
@@ -25,7 +27,7 @@ class EdgeGraph {
 };
 
 // Breadth-first searches on one graph, each in the memory of the last.
-class RingSearch {
+class ONSET_API RingSearch {
  public:
   RingSearch(const EdgeGraph& graph, int vertices) : graph_(graph), seen_(std::size_t(vertices), -1) {}
   // Returns the vertices within `rings` edges of a or b, each once, in the order in which they are met. Valid
@@ -40,10 +42,12 @@ class RingSearch {
 };
 
 // Which vertices are within so many edges of each other.
-class VertexRings {
+class ONSET_API VertexRings {
  public:
   // rings >= 1. Throws std::invalid_argument where more than `most` pairs of vertices are that near.
   VertexRings(const MeshData& mesh, int rings, std::size_t most);
+  // Takes the pairs of vertices v < w that are so near.
+  VertexRings(int vertices, int rings, std::vector<std::array<int, 2>> near);
   static constexpr std::size_t kMostPairs = std::size_t(1) << 27;
 
   int rings() const { return rings_; }

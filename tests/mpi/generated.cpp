@@ -190,6 +190,15 @@ WholeScene tied_widths(Random& random) {
   return whole("equally wide", scenes::joined(scene, corners));
 }
 
+WholeScene with_rings(Random& random) {
+  CollisionRules rules;
+  rules.excluded_rings = 1 + int(3 * scenes::unit(random));
+  Scene cloth = scenes::cloth(9, 8);
+  for (Eigen::Index v = 0; v < cloth.x_t1.rows(); ++v) cloth.x_t1(v, 0) -= 1.4 * cloth.x_t0(v, 0);
+  scenes::shake(cloth, 0.2, random);
+  return whole("rings", cloth, rules);
+}
+
 WholeScene of_kind(int kind, int round, Random& random) {
   switch (kind) {
     case 0:
@@ -229,6 +238,8 @@ WholeScene of_kind(int kind, int round, Random& random) {
     case 17:
       return tied_widths(random);
     case 18:
+      return with_rings(random);
+    case 19:
       return whole("one triangle", scenes::triangle_soup(1, 0.5, 0.5, random));
     default:
       return whole("grid soup", soup(random, 0.6, 0.1, 25));
