@@ -99,6 +99,7 @@ void find_elements(const MeshPart& part, Mesh::Impl& m) {
   });
   m.edges += m.points;
   m.own_edges = std::move(edges), m.own_faces = std::move(faces);
+  comm.agreed([&] { m.own_edges.shrink_to_fit(), m.own_faces.shrink_to_fit(); });
 }
 
 // (c) Makes slots of all vertices that are owned, or are of elements that are, and turns ids into slots.
@@ -126,12 +127,14 @@ void find_slots(const MeshPart& part, const VertexOwners& owners, Mesh::Impl& m)
   const std::vector<int> halo_owners = owners.of(wanted);
   m.halo = Halo(comm, owned, wanted, halo_owners);
   comm.agreed([&] {
+    m.id.reserve(owned.size() + wanted.size()), m.owner.reserve(owned.size() + wanted.size());
     m.id = owned;
     m.owner.assign(owned.size(), comm.rank());
     m.id.insert(m.id.end(), wanted.begin(), wanted.end());
     m.owner.insert(m.owner.end(), halo_owners.begin(), halo_owners.end());
     for (std::size_t i = 0; i < wanted.size(); ++i) slot_of.push_back({wanted[i], int(owned.size() + i)});
     std::sort(slot_of.begin(), slot_of.end());
+    m.by_id.reserve(slot_of.size());
     for (const auto& [id, place] : slot_of) m.by_id.push_back(place);
     for (Element<2>& e : m.own_edges)
       for (int& v : e.vertices) v = slot(v);

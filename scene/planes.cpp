@@ -33,7 +33,7 @@ MeshPlane scaled(const Plane& plane) {
 
 bool may_meet_plane(const MeshData& mesh, int vertex, int plane) {
   const std::size_t v = std::size_t(vertex);
-  if (mesh.whole && mesh.whole->owner[std::size_t(Primitive::vertex)][v] != mesh.whole->here) return false;
+  if (mesh.whole && mesh.whole->owner(Primitive::vertex, vertex) != mesh.whole->here) return false;
   if (!mesh.is_static.empty() && mesh.is_static[v]) return false;
   const Plane& p = mesh.planes[std::size_t(plane)];
   const std::uint32_t group = mesh.group.empty() ? ~0u : mesh.group[v];

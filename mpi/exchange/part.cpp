@@ -59,12 +59,12 @@ class Assembly {
       for (std::size_t i = 0; i < ghosts_.vertices[r].size(); ++i)
         arrived.push_back({ghosts_.vertices[r][i].id, int(r), int(i)});
     std::sort(arrived.begin(), arrived.end(), [](const Source& x, const Source& y) { return x.id < y.id; });
-    std::vector<int>&ids = whole.id[0], &owners = whole.owner[0];
+    std::vector<int>& ids = whole.id[0];
     const std::size_t most = m_.slots() + arrived.size();
-    sources_.reserve(most), ids.reserve(most), owners.reserve(most);
+    sources_.reserve(most), ids.reserve(most), whole.owners[0].reserve(most);
     const auto add = [&](const Source& s, int owner) {
       if (!ids.empty() && ids.back() == s.id) return;
-      sources_.push_back(s), ids.push_back(s.id), owners.push_back(owner);
+      sources_.push_back(s), ids.push_back(s.id), whole.owners[0].add(owner, whole.here);
     };
     auto next = arrived.begin();
     for (const int slot : m_.by_id) {
@@ -111,9 +111,20 @@ class Assembly {
     while (next != others.end()) add_arrived();
   }
 
+  // Makes room for all primitives of a kind and returns how many there are.
+  template <class Arrived>
+  static std::size_t reserve(std::size_t own, const PerRank<Arrived>& arrived, Primitive kind,
+                             WholeScene& whole) {
+    std::size_t count = own;
+    for (const std::vector<Arrived>& of_rank : arrived) count += of_rank.size();
+    whole.id[std::size_t(kind)].reserve(count), whole.owners[std::size_t(kind)].reserve(count);
+    return count;
+  }
   void add_edges(MeshData& data, WholeScene& whole) {
+    const std::size_t count = reserve(m_.own_edges.size(), ghosts_.edges, Primitive::edge, whole);
+    data.edges.reserve(count);
     merge<2>(m_.own_edges, ghosts_.edges, [&](int id, int owner, const std::array<int, 2>& v) {
-      whole.id[1].push_back(id), whole.owner[1].push_back(owner);
+      whole.id[1].push_back(id), whole.owners[1].add(owner, whole.here);
       if (v[0] == v[1])
         points_.push_back(v[0]);
       else
@@ -121,8 +132,9 @@ class Assembly {
     });
   }
   void add_faces(MeshData& data, WholeScene& whole) {
+    data.faces.reserve(reserve(m_.own_faces.size(), ghosts_.faces, Primitive::face, whole));
     merge<3>(m_.own_faces, ghosts_.faces, [&](int id, int owner, const std::array<int, 3>& v) {
-      whole.id[2].push_back(id), whole.owner[2].push_back(owner);
+      whole.id[2].push_back(id), whole.owners[2].add(owner, whole.here);
       data.faces.push_back(v);
     });
   }
@@ -204,9 +216,9 @@ class Assembly {
 void count_ghosts(const Mesh::Impl& m, const Part& part) {
   m.exchange.pairs = 0;
   for (std::size_t kind = 0; kind < 3; ++kind) {
-    const std::vector<int>& owners = part.whole->owner[kind];
-    m.exchange.owned[kind] = std::count(owners.begin(), owners.end(), m.comm.rank());
-    m.exchange.ghosts[kind] = std::int64_t(owners.size()) - m.exchange.owned[kind];
+    const PartOwners& owners = part.whole->owners[kind];
+    m.exchange.ghosts[kind] = std::int64_t(owners.elsewhere());
+    m.exchange.owned[kind] = std::int64_t(owners.size() - owners.elsewhere());
   }
 }
 
@@ -223,7 +235,7 @@ void Part::rename(Pair& pair) const {
 std::array<int, 4> Part::owners_of(const Pair& pair) const {
   std::array<int, 4> owners{-1, -1, -1, -1};
   for (std::size_t i = 0; i < 4; ++i)
-    if (pair.vertices[i] >= 0) owners[i] = whole->owner[0][std::size_t(pair.vertices[i])];
+    if (pair.vertices[i] >= 0) owners[i] = whole->owner(Primitive::vertex, pair.vertices[i]);
   return owners;
 }
 

@@ -124,6 +124,7 @@ void find_partners(Mesh::Impl& m) {
         bool& any = known[k.key][std::size_t(kind)];
         for (const int other : others(m.dimension, kind)) any = any || partners.any(k.key, kind, other);
       }
+    for (std::size_t kind = 0; kind < 3; ++kind) m.takes_part[kind].reserve(keys[kind].size());
     for (std::size_t kind = 0; kind < 3; ++kind)
       for (const Key& key : keys[kind]) {
         const bool any = known.at(key)[kind];

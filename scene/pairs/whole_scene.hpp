@@ -11,6 +11,27 @@
 
 namespace onset {
 
+// Whose the primitives of one kind are, of a part that owns nearly all that it has.
+class PartOwners {
+ public:
+  // Says that the next primitive, in the order of ids, is this part's or another's.
+  void add(int owner, int here) {
+    if (owner != here) others_.push_back({int(elsewhere_.size()), owner});
+    elsewhere_.push_back(owner != here);
+  }
+  void reserve(std::size_t count) { elsewhere_.reserve(count); }
+  std::size_t size() const { return elsewhere_.size(); }
+  std::size_t elsewhere() const { return others_.size(); }
+  int of(int id, int here) const {
+    if (!elsewhere_[std::size_t(id)]) return here;
+    return (*std::lower_bound(others_.begin(), others_.end(), std::array<int, 2>{id, 0}))[1];
+  }
+
+ private:
+  std::vector<bool> elsewhere_;
+  std::vector<std::array<int, 2>> others_;  // ids, in order, and their owners, which are >= 0
+};
+
 // Set by whoever divides a scene. Lengths are the largest over all parts: what a part measures itself is no
 // more, so that every part goes on with the same.
 struct WholeScene {
@@ -32,7 +53,10 @@ struct WholeScene {
 
   // Which part this is, and by kind and id whose a primitive is, and its id in the whole.
   int here = 0;
-  std::array<std::vector<int>, 3> owner, id;
+  std::array<PartOwners, 3> owners;
+  std::array<std::vector<int>, 3> id;
+
+  int owner(Primitive kind, int of) const { return owners[std::size_t(kind)].of(of, here); }
 };
 
 // Says whether rounding all vertices in every call is worth it: unless most of them are static.
@@ -43,10 +67,12 @@ inline bool rounds_all(std::size_t static_vertices, std::ptrdiff_t vertices) {
 // Says whether this part decides a pair: each is decided by exactly one of the owners of its two primitives,
 // by the sum of their ids, so that two parts share the pairs between them about evenly.
 inline bool is_decided_here(const WholeScene& whole, PairKind kind, int a, int b) {
-  const std::size_t first = std::size_t(first_primitive(kind)), second = std::size_t(second_primitive(kind));
-  const int p = whole.owner[first][std::size_t(a)], q = whole.owner[second][std::size_t(b)];
+  const Primitive first = first_primitive(kind), second = second_primitive(kind);
+  const int p = whole.owner(first, a), q = whole.owner(second, b);
   if (p == q) return p == whole.here;
-  const bool odd = ((whole.id[first][std::size_t(a)] ^ whole.id[second][std::size_t(b)]) & 1) != 0;
+  const std::vector<int>&first_ids = whole.id[std::size_t(first)],
+        &second_ids = whole.id[std::size_t(second)];
+  const bool odd = ((first_ids[std::size_t(a)] ^ second_ids[std::size_t(b)]) & 1) != 0;
   return (odd ? std::min(p, q) : std::max(p, q)) == whole.here;
 }
 
