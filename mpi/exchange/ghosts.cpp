@@ -28,9 +28,34 @@ struct KindBox {
   Primitive kind;
 };
 
-// (c) Returns boxes of other ranks, with what is in them, that may concern this one, by rank; those of a kind
-// lie near each other in their order.
-PerRank<KindBox> exchange_boxes(const Mesh::Impl& m, const AllOwnBoxes& own, Meetings meetings) {
+// Which kind meets which, of what is owned here and what others have told.
+class Meeting {
+ public:
+  Meeting(const Mesh::Impl& m, const AllOwnBoxes& own, Meetings meetings)
+      : m_(m), own_(own), meetings_(meetings) {}
+
+  // Calls f(rank, kind, own boxes of that kind, tree) with the boxes of each rank of what that kind meets.
+  template <class F>
+  void each(PerRank<KindBox>& theirs, const F& f) const {
+    for (std::size_t r = 0; r < theirs.size(); ++r) {
+      std::array<std::vector<Box>, 3> boxes;
+      for (const KindBox& b : theirs[r]) boxes[std::size_t(b.kind)].push_back(b.box);
+      theirs[r] = {};
+      for (const Primitive kind : kPrimitives)
+        if (const auto partner = partner_of(kind, m_.dimension, meetings_))
+          if (std::vector<Box>& of = boxes[std::size_t(*partner)]; !of.empty())
+            f(r, kind, *own_[std::size_t(kind)], BoxTree(std::move(of)));
+    }
+  }
+
+ private:
+  const Mesh::Impl& m_;
+  const AllOwnBoxes& own_;
+  const Meetings meetings_;
+};
+
+// (c) Returns a few boxes of each kind of all other ranks, by rank.
+PerRank<KindBox> tell_all(const Mesh::Impl& m, const AllOwnBoxes& own) {
   struct RankBox {
     KindBox of;
     int rank;
@@ -42,24 +67,35 @@ PerRank<KindBox> exchange_boxes(const Mesh::Impl& m, const AllOwnBoxes& own, Mee
         for (const Box& box : boxes->tree().cut(kBoxesForAll)) mine.push_back({{box, kind}, m.comm.rank()});
   });
   const std::vector<RankBox> all = m.comm.gather(mine);
-  PerRank<KindBox> finer;
+  PerRank<KindBox> by_rank;
   m.comm.agreed([&] {
-    finer.resize(std::size_t(m.comm.size()));
-    for (std::size_t first = 0, last; first < all.size(); first = last) {
-      const int rank = all[first].rank;
-      const Primitive theirs = all[first].of.kind;
-      std::vector<Box> boxes;
-      for (last = first; last < all.size() && all[last].rank == rank && all[last].of.kind == theirs; ++last)
-        boxes.push_back(all[last].of.box);
-      if (rank == m.comm.rank()) continue;
-      const Primitive kind = *partner_of(theirs, m.dimension, meetings);
-      const OwnBoxes& here = *own[std::size_t(kind)];
-      here.each_meeting(BoxTree(std::move(boxes)), [&](int row) {
-        finer[std::size_t(rank)].push_back({here.box_of(row), kind});
-      });
-    }
+    by_rank.resize(std::size_t(m.comm.size()));
+    for (const RankBox& b : all)
+      if (b.rank != m.comm.rank()) by_rank[std::size_t(b.rank)].push_back(b.of);
   });
-  return m.comm.exchange(finer);
+  return by_rank;
+}
+
+// (c) Returns the boxes of single primitives of other ranks that may concern this one, by rank: each tells
+// the others of its groups that meet their few boxes, then of its primitives that meet their groups.
+PerRank<KindBox> exchange_boxes(const Mesh::Impl& m, const AllOwnBoxes& own, const Meeting& meeting) {
+  PerRank<KindBox> theirs = tell_all(m, own);
+  for (const bool single : {false, true}) {
+    PerRank<KindBox> mine;
+    m.comm.agreed([&] {
+      mine.resize(theirs.size());
+      meeting.each(theirs, [&](std::size_t r, Primitive kind, const OwnBoxes& here, const BoxTree& tree) {
+        if (single)
+          here.each_meeting(tree, [&](int row) { mine[r].push_back({here.box_of(row), kind}); });
+        else
+          here.tree().each_meeting(tree, [&](std::size_t group) {
+            mine[r].push_back({here.tree().leaves()[group], kind});
+          });
+      });
+    });
+    theirs = m.comm.exchange(mine);
+  }
+  return theirs;
 }
 
 // Puts primitives into a message, each vertex once.
@@ -116,20 +152,16 @@ Ghosts exchange_ghosts(const Mesh::Impl& m, const OwnMotion& motion, double infl
       if (partner_of(kind, m.dimension, meetings))
         own[std::size_t(kind)] = std::make_unique<OwnBoxes>(m, motion.motion, kind, inflation);
   });
-  const PerRank<KindBox> theirs = exchange_boxes(m, own, meetings);
+  const Meeting meeting(m, own, meetings);
+  PerRank<KindBox> theirs = exchange_boxes(m, own, meeting);
   m.comm.agreed([&] {
     const std::size_t ranks = std::size_t(m.comm.size());
     out.vertices.resize(ranks), out.rules.resize(ranks), out.edges.resize(ranks), out.faces.resize(ranks);
     Packer packer(m, motion, out);
-    for (std::size_t r = 0; r < ranks; ++r) {
-      std::array<std::vector<Box>, 3> boxes;
-      for (const KindBox& b : theirs[r]) boxes[std::size_t(b.kind)].push_back(b.box);
-      for (const Primitive kind : kPrimitives) {
-        const auto partner = partner_of(kind, m.dimension, meetings);
-        if (!partner || boxes[std::size_t(*partner)].empty()) continue;
-        packer.pack(*own[std::size_t(kind)], kind, BoxTree(std::move(boxes[std::size_t(*partner)])), r);
-      }
-    }
+    meeting.each(theirs, [&](std::size_t r, Primitive kind, const OwnBoxes& here, const BoxTree& tree) {
+      packer.pack(here, kind, tree, r);
+    });
+    for (auto& boxes : own) boxes.reset();
   });
   in.vertices = m.comm.exchange(out.vertices);
   if (m.has_rules) in.rules = m.comm.exchange(out.rules);

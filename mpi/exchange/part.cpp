@@ -59,12 +59,15 @@ class Assembly {
       for (std::size_t i = 0; i < ghosts_.vertices[r].size(); ++i)
         arrived.push_back({ghosts_.vertices[r][i].id, int(r), int(i)});
     std::sort(arrived.begin(), arrived.end(), [](const Source& x, const Source& y) { return x.id < y.id; });
-    std::vector<int>& ids = whole.id[0];
+    PartPrimitives& vertices = whole.primitives[0];
     const std::size_t most = m_.slots() + arrived.size();
-    sources_.reserve(most), ids.reserve(most), whole.owners[0].reserve(most);
+    sources_.reserve(most), ids_.reserve(most), vertices.reserve(most);
+    whole.own_vertices.reserve(std::size_t(m_.owned));
     const auto add = [&](const Source& s, int owner) {
-      if (!ids.empty() && ids.back() == s.id) return;
-      sources_.push_back(s), ids.push_back(s.id), whole.owners[0].add(owner, whole.here);
+      if (!ids_.empty() && ids_.back() == s.id) return;
+      sources_.push_back(s), ids_.push_back(s.id);
+      if (owner != whole.here) return vertices.add(s.id, owner);
+      vertices.add_own(), whole.own_vertices.push_back(s.id);
     };
     auto next = arrived.begin();
     for (const int slot : m_.by_id) {
@@ -73,17 +76,16 @@ class Assembly {
       add({id, -1, slot}, m_.owner[std::size_t(slot)]);
     }
     for (; next != arrived.end(); ++next) add(*next, ghost(*next).owner);
-    ids_ = &ids;
+    vertices.own_ids_at(whole.own_vertices.data(), sizeof(int));
     place_of_slot_.resize(m_.slots());
     for (std::size_t v = 0; v < sources_.size(); ++v)
       if (sources_[v].rank < 0) place_of_slot_[std::size_t(sources_[v].row)] = int(v);
   }
 
-  int place(int id) const { return int(std::lower_bound(ids_->begin(), ids_->end(), id) - ids_->begin()); }
-  bool has(const std::vector<int>& ids, int id, int& place) const {
-    const auto at = std::lower_bound(ids.begin(), ids.end(), id);
-    place = int(at - ids.begin());
-    return at != ids.end() && *at == id;
+  int place(int id) const { return int(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin()); }
+  bool has_vertex(int id, int& at) const {
+    at = place(id);
+    return std::size_t(at) < ids_.size() && ids_[std::size_t(at)] == id;
   }
 
   // Merges own elements and those that arrived, by id, and calls add(id, owner, vertices of the part).
@@ -111,20 +113,24 @@ class Assembly {
     while (next != others.end()) add_arrived();
   }
 
-  // Makes room for all primitives of a kind and returns how many there are.
-  template <class Arrived>
-  static std::size_t reserve(std::size_t own, const PerRank<Arrived>& arrived, Primitive kind,
-                             WholeScene& whole) {
-    std::size_t count = own;
+  // Makes room for all elements and returns how many there are.
+  template <std::size_t N, class Arrived>
+  static std::size_t prepare(const std::vector<Element<N>>& own, const PerRank<Arrived>& arrived,
+                             PartPrimitives& elements) {
+    std::size_t count = own.size();
     for (const std::vector<Arrived>& of_rank : arrived) count += of_rank.size();
-    whole.id[std::size_t(kind)].reserve(count), whole.owners[std::size_t(kind)].reserve(count);
+    elements.reserve(count);
+    if (!own.empty()) elements.own_ids_at(&own[0].id, sizeof own[0]);
     return count;
   }
+  void note(int id, int owner, PartPrimitives& elements) const {
+    owner == m_.comm.rank() ? elements.add_own() : elements.add(id, owner);
+  }
   void add_edges(MeshData& data, WholeScene& whole) {
-    const std::size_t count = reserve(m_.own_edges.size(), ghosts_.edges, Primitive::edge, whole);
-    data.edges.reserve(count);
+    PartPrimitives& edges = whole.primitives[1];
+    data.edges.reserve(prepare(m_.own_edges, ghosts_.edges, edges));
     merge<2>(m_.own_edges, ghosts_.edges, [&](int id, int owner, const std::array<int, 2>& v) {
-      whole.id[1].push_back(id), whole.owners[1].add(owner, whole.here);
+      note(id, owner, edges);
       if (v[0] == v[1])
         points_.push_back(v[0]);
       else
@@ -132,9 +138,10 @@ class Assembly {
     });
   }
   void add_faces(MeshData& data, WholeScene& whole) {
-    data.faces.reserve(reserve(m_.own_faces.size(), ghosts_.faces, Primitive::face, whole));
+    PartPrimitives& faces = whole.primitives[2];
+    data.faces.reserve(prepare(m_.own_faces, ghosts_.faces, faces));
     merge<3>(m_.own_faces, ghosts_.faces, [&](int id, int owner, const std::array<int, 3>& v) {
-      whole.id[2].push_back(id), whole.owners[2].add(owner, whole.here);
+      note(id, owner, faces);
       data.faces.push_back(v);
     });
   }
@@ -168,7 +175,7 @@ class Assembly {
       for (std::size_t i = m_.near.first[slot]; i < m_.near.first[slot + 1]; ++i) {
         int w = 0;
         const int v = place_of_slot_[slot];
-        if (has(*ids_, m_.near.ids[i], w)) pairs.push_back({std::min(v, w), std::max(v, w)});
+        if (has_vertex(m_.near.ids[i], w)) pairs.push_back({std::min(v, w), std::max(v, w)});
       }
     return std::make_shared<const VertexRings>(int(sources_.size()), m_.near.rings, std::move(pairs));
   }
@@ -176,19 +183,19 @@ class Assembly {
   // Rules that name vertices and pairs, as far as they are here.
   void name_pairs(const WholeScene& whole, CollisionRules& rules) const {
     int a = 0, b = 0;
+    const auto& [vertices, edges, faces] = whole.primitives;
     for (const auto& [v, w] : m_.tables.excluded_vertices)
-      if (has(whole.id[0], v, a) && has(whole.id[0], w, b)) rules.excluded_vertices.push_back({a, b});
+      if (has_vertex(v, a) && has_vertex(w, b)) rules.excluded_vertices.push_back({a, b});
     for (const Pair& p : m_.tables.excluded_pairs) {
-      const std::vector<int>& first = whole.id[p.kind == PairKind::edge_edge ? 1 : 0];
-      if (!has(first, p.a, a)) continue;
+      if (!(p.kind == PairKind::edge_edge ? edges : vertices).find(p.a, a)) continue;
       if (p.kind == PairKind::vertex_plane)
         b = p.b;
-      else if (!has(whole.id[p.kind == PairKind::vertex_face ? 2 : 1], p.b, b))
+      else if (!(p.kind == PairKind::vertex_face ? faces : edges).find(p.b, b))
         continue;
       rules.excluded_pairs.push_back({p.kind, a, b, {}});
     }
     for (const Intersection& p : m_.tables.excluded_intersections)
-      if (has(whole.id[1], p.edge, a) && has(whole.id[m_.dimension == 2 ? 1 : 2], p.face, b)) {
+      if (edges.find(p.edge, a) && (m_.dimension == 2 ? edges : faces).find(p.face, b)) {
         rules.excluded_intersections.push_back({});
         rules.excluded_intersections.back().edge = a, rules.excluded_intersections.back().face = b;
       }
@@ -209,16 +216,16 @@ class Assembly {
   const OwnMotion& own_;
   const Ghosts& ghosts_;
   std::vector<Source> sources_;  // by vertex of the part
-  const std::vector<int>* ids_ = nullptr;
+  std::vector<int> ids_;         // in the scene
   std::vector<int> place_of_slot_, points_;
 };
 
 void count_ghosts(const Mesh::Impl& m, const Part& part) {
   m.exchange.pairs = 0;
   for (std::size_t kind = 0; kind < 3; ++kind) {
-    const PartOwners& owners = part.whole->owners[kind];
-    m.exchange.ghosts[kind] = std::int64_t(owners.elsewhere());
-    m.exchange.owned[kind] = std::int64_t(owners.size() - owners.elsewhere());
+    const PartPrimitives& all = part.whole->primitives[kind];
+    m.exchange.ghosts[kind] = std::int64_t(all.elsewhere());
+    m.exchange.owned[kind] = std::int64_t(all.size() - all.elsewhere());
   }
 }
 

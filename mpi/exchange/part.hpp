@@ -26,7 +26,7 @@ struct Part {
   Positions end() const { return {x_t1.data(), mesh.num_vertices(), mesh.dimension()}; }
 
   // What ids of the part are in the scene.
-  int id_of(Primitive kind, int id) const { return whole->id[std::size_t(kind)][std::size_t(id)]; }
+  int id_of(Primitive kind, int id) const { return whole->id(kind, id); }
   void rename(Pair& pair) const;
   template <std::size_t N>
   void rename_vertices(std::array<int, N>& vertices) const {

@@ -5,31 +5,63 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include "scene/primitive.hpp"
 
 namespace onset {
 
-// Whose the primitives of one kind are, of a part that owns nearly all that it has.
-class PartOwners {
+// The primitives of one kind of a part, which owns nearly all that it has: whose each is, and its id in the
+// whole, in the order of which they are added.
+class PartPrimitives {
  public:
-  // Says that the next primitive, in the order of ids, is this part's or another's.
-  void add(int owner, int here) {
-    if (owner != here) others_.push_back({int(elsewhere_.size()), owner});
-    elsewhere_.push_back(owner != here);
-  }
   void reserve(std::size_t count) { elsewhere_.reserve(count); }
+  // The id of the i-th that is owned here is at `first`, i times `stride` bytes on. It is not copied.
+  void own_ids_at(const int* first, std::size_t stride) {
+    first_ = reinterpret_cast<const char*>(first), stride_ = stride;
+  }
+  void add_own() { elsewhere_.push_back(false); }
+  void add(int id, int owner) {
+    others_.push_back({int(elsewhere_.size()), owner, id});
+    elsewhere_.push_back(true);
+  }
+
   std::size_t size() const { return elsewhere_.size(); }
   std::size_t elsewhere() const { return others_.size(); }
-  int of(int id, int here) const {
-    if (!elsewhere_[std::size_t(id)]) return here;
-    return (*std::lower_bound(others_.begin(), others_.end(), std::array<int, 2>{id, 0}))[1];
+  int owner(int i, int here) const { return elsewhere_[std::size_t(i)] ? first_not_before(i)->owner : here; }
+  int id(int i) const {
+    const auto at = first_not_before(i);
+    if (elsewhere_[std::size_t(i)]) return at->id;
+    int id;
+    std::memcpy(&id, first_ + (std::size_t(i) - std::size_t(at - others_.begin())) * stride_, sizeof id);
+    return id;
+  }
+  // Sets i to the place of an id and returns true, if it is here.
+  bool find(int wanted, int& i) const {
+    int last = int(size());
+    for (i = 0; i < last;) {
+      const int middle = i + (last - i) / 2;
+      if (id(middle) < wanted)
+        i = middle + 1;
+      else
+        last = middle;
+    }
+    return i < int(size()) && id(i) == wanted;
   }
 
  private:
+  struct Other {
+    int place, owner, id;
+  };
+  std::vector<Other>::const_iterator first_not_before(int i) const {
+    return std::lower_bound(others_.begin(), others_.end(), i,
+                            [](const Other& other, int place) { return other.place < place; });
+  }
   std::vector<bool> elsewhere_;
-  std::vector<std::array<int, 2>> others_;  // ids, in order, and their owners, which are >= 0
+  std::vector<Other> others_;
+  const char* first_ = nullptr;
+  std::size_t stride_ = 0;
 };
 
 // Set by whoever divides a scene. Lengths are the largest over all parts: what a part measures itself is no
@@ -51,12 +83,14 @@ struct WholeScene {
   std::array<double, 3> middle{};
   bool rounds_all = true;
 
-  // Which part this is, and by kind and id whose a primitive is, and its id in the whole.
+  // Which part this is, and its primitives, by kind.
   int here = 0;
-  std::array<PartOwners, 3> owners;
-  std::array<std::vector<int>, 3> id;
+  std::array<PartPrimitives, 3> primitives;
+  // The ids of the vertices that are owned here, in order.
+  std::vector<int> own_vertices;
 
-  int owner(Primitive kind, int of) const { return owners[std::size_t(kind)].of(of, here); }
+  int owner(Primitive kind, int i) const { return primitives[std::size_t(kind)].owner(i, here); }
+  int id(Primitive kind, int i) const { return primitives[std::size_t(kind)].id(i); }
 };
 
 // Says whether rounding all vertices in every call is worth it: unless most of them are static.
@@ -70,9 +104,7 @@ inline bool is_decided_here(const WholeScene& whole, PairKind kind, int a, int b
   const Primitive first = first_primitive(kind), second = second_primitive(kind);
   const int p = whole.owner(first, a), q = whole.owner(second, b);
   if (p == q) return p == whole.here;
-  const std::vector<int>&first_ids = whole.id[std::size_t(first)],
-        &second_ids = whole.id[std::size_t(second)];
-  const bool odd = ((first_ids[std::size_t(a)] ^ second_ids[std::size_t(b)]) & 1) != 0;
+  const bool odd = ((whole.id(first, a) ^ whole.id(second, b)) & 1) != 0;
   return (odd ? std::min(p, q) : std::max(p, q)) == whole.here;
 }
 
