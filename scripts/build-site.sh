@@ -24,7 +24,7 @@ mkdir -p "$work/doxygen"
 export ONSET_SITE_WORK="$work" PYTHONDONTWRITEBYTECODE=1
 {
   cat docs/site/Doxyfile
-  echo "INPUT = include"
+  echo "INPUT = include mpi/include"
   echo "OUTPUT_DIRECTORY = \"$work/doxygen\""
   echo "INPUT_FILTER = \"python3 docs/site/doxygen_filter.py\""
 } > "$work/Doxyfile"

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Builds onset::mpi with Open MPI and with MPICH, each in a folder of its own on one build of the library, and runs its tests.
 #   test-mpi.sh          small scenes on 1, 2 and 4 ranks, and a few injected faults: minutes
-#   test-mpi.sh --all    the recorded scenes (ONSET_DATA says where they are) and 200 generated ones on 1, 2, 3, 4 and 7 ranks, and
-#                        1,000 faults, with Open MPI: about an hour of two cores
+#   test-mpi.sh --all    the recorded scenes (ONSET_DATA says where they are) and 200 generated ones on 1, 2, 3, 4 and 7 ranks, what
+#                        steps exchange, and 1,000 faults, with Open MPI: about an hour of two cores
 # CMAKE_BUILD_PARALLEL_LEVEL is heeded.
 set -eu
 cd "$(dirname "$0")/.."
@@ -36,7 +36,7 @@ for mpi in openmpi mpich; do
         -DMPIEXEC_EXECUTABLE=/usr/bin/mpirun.$mpi >/dev/null
   cmake --build build/mpi/$mpi
   # MPICH gives way to no other rank while it waits, so that more ranks than cores take long.
-  scenes=20
+  scenes=21
   for ranks in 1 2 4; do
     [ $mpi-$ranks != mpich-4 ] || scenes=3
     run $mpi $ranks small $scenes
@@ -45,6 +45,7 @@ for mpi in openmpi mpich; do
 done
 [ -n "$all" ] || exit 0
 
+[ -z "${ONSET_DATA:-}" ] || run openmpi 4 exchange "$ONSET_DATA/scenes"
 for ranks in 1 2 3 4 7; do
   run openmpi $ranks generated 200
   [ -z "${ONSET_DATA:-}" ] || run openmpi $ranks recorded "$ONSET_DATA/scenes"

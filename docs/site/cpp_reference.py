@@ -1,4 +1,4 @@
-"""The directive `headers`: public headers by their paths or patterns below include/onset/, each a section of what it declares.
+"""The directive `headers`: public headers by their paths or patterns below include/onset/ and mpi/include/onset/, each a section of what it declares.
 
     cpp_reference.py XML    prepares doxygen's XML: a file is named by its path, since headers of two folders may be called alike,
                             and has what it declares in a namespace, which doxygen lists with the namespace alone; private members go
@@ -10,13 +10,14 @@ import re
 import sys
 from xml.etree import ElementTree
 
-INCLUDE = pathlib.Path(__file__).resolve().parents[2] / "include"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+INCLUDES = [ROOT / "include", ROOT / "mpi/include"]
 # They declare nothing that a program uses.
-WITHOUT_SECTION = {"onset/onset.hpp", "onset/export.hpp"}
+WITHOUT_SECTION = {"onset/onset.hpp", "onset/export.hpp", "onset/mpi/mpi.hpp"}
 
 
 def public_headers():
-    return sorted(path.relative_to(INCLUDE).as_posix() for path in INCLUDE.rglob("*.hpp"))
+    return sorted(path.relative_to(include).as_posix() for include in INCLUDES for path in include.rglob("*.hpp"))
 
 
 def prepare(xml):

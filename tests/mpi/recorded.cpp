@@ -19,7 +19,7 @@ constexpr Step kSteps[] = {{"cloth-ball", "cloth_ball92", "cloth_ball93"},
 
 // What docs/distributed.md says: ghosts for each primitive within reach of another rank's, and the memory of
 // a rank for that of one process with as many primitives.
-constexpr double kMostGhosts = 2.5, kMostMemory = 1.5;
+constexpr double kMostGhosts = 2, kMostMemory = 1.2;
 
 WholeScene read(const std::string& folder, const Step& step) {
   const std::string frames = folder + "/" + step.folder + "/frames/";

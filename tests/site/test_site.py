@@ -74,10 +74,11 @@ class Site(unittest.TestCase):
         inventory = (self.site / "objects.inv").read_bytes()
         shown = set(zlib.decompress(inventory.split(b"\n", 4)[4]).decode().split())
         declared = 0
-        for header in (ROOT / "include/onset").glob("*.hpp"):
-            for name in re.findall(r"^ONSET_API [\w:<>, ]+[ &*](\w+)\(", header.read_text(), re.MULTILINE):
-                self.assertIn(f"onset::{name}", shown, header)
-                declared += 1
+        for folder, scope in (("include/onset", "onset"), ("mpi/include/onset/mpi", "onset::mpi")):
+            for header in (ROOT / folder).glob("*.hpp"):
+                for name in re.findall(r"^ONSET_API [\w:<>, ]+[ &*](\w+)\(", header.read_text(), re.MULTILINE):
+                    self.assertIn(f"{scope}::{name}", shown, header)
+                    declared += 1
         self.assertGreater(declared, 20)
         for name in ("Mesh", "LineSearch.largest_step", "compute_collision_free_stepsize", "Options", "Contact.toi"):
             self.assertIn(f"onset_ccd.{name}", shown)

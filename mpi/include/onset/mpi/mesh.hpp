@@ -33,7 +33,7 @@ struct MeshPart {
   int dimension = 3;
   // Rules that have a value for each vertex (thickness, bodies, static_vertices, groups, masks) have one for
   // each row here; `points` are rows, and `point_ids` their places in the list of the scene. All others are
-  // the same on all ranks, with ids of the scene. rest_positions are refused.
+  // the same on all ranks, with ids of the scene. rest_positions is refused.
   CollisionRules rules;
   std::vector<int> point_ids;
 };
