@@ -91,10 +91,9 @@ Extents corner_extents(const MeshData& mesh, const Motion& m, double gap) {
   bool has_faces = !mesh.faces.empty(), has_edges = !mesh.edges.empty();
   if (const WholeScene* whole = mesh.whole.get()) {
     has_faces = whole->has_faces, has_edges = whole->has_edges;
-    for (std::size_t a = 0; a < 3; ++a) {
-      edge[a] = std::max(edge[a], whole->widest_edge[a]), face[a] = std::max(face[a], whole->widest_face[a]);
-      far[a] = std::max(far[a], whole->moved[a]);
-    }
+    // A part cannot tell which of its primitives have no partner anywhere: what it measures may be more.
+    edge = whole->widest_edge, face = whole->widest_face;
+    for (std::size_t a = 0; a < 3; ++a) far[a] = whole->moved[a];
   }
   for (std::size_t a = 0; a < 3; ++a) {  // each sum rounds twice: factor 1 + 4u
     if (has_faces) r.vertex_face[a] = (far[a] * (1 + 0x1p-52) + face[a] + gap) * (1 + 0x1p-51);

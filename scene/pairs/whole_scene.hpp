@@ -64,8 +64,8 @@ class PartPrimitives {
   std::size_t stride_ = 0;
 };
 
-// Set by whoever divides a scene. Lengths are the largest over all parts: what a part measures itself is no
-// more, so that every part goes on with the same.
+// Set by whoever divides a scene. Lengths are the largest of all primitives that have a partner somewhere in
+// the scene, so that every part goes on with the same; a part cannot tell which these are.
 struct WholeScene {
   // Whether there are such primitives, and static ones that take part.
   bool has_edges = false, has_faces = false, has_static = false;

@@ -199,6 +199,21 @@ WholeScene with_rings(Random& random) {
   return whole("rings", cloth, rules);
 }
 
+// The last triangles and the lone rigid body fly far, and meet nobody.
+WholeScene with_idle_primitives(Random& random) {
+  Scene scene = soup(random, 0.25, 0.3, 40);
+  const Eigen::Index flying = 9;
+  const Eigen::Index n = scene.x_t0.rows();
+  scene.x_t1.bottomRows(flying).array() += 1e7;
+  CollisionRules rules;
+  rules.groups.assign(std::size_t(n), 1u), rules.masks.assign(std::size_t(n), 1u);
+  for (Eigen::Index v = n - flying; v < n; ++v)
+    rules.groups[std::size_t(v)] = rules.masks[std::size_t(v)] = 0;
+  WholeScene r = whole("idle primitives", scene, rules);
+  r.options.narrow_phase = NarrowPhaseMethod::inclusion;
+  return r;
+}
+
 WholeScene of_kind(int kind, int round, Random& random) {
   switch (kind) {
     case 0:
@@ -240,6 +255,8 @@ WholeScene of_kind(int kind, int round, Random& random) {
     case 18:
       return with_rings(random);
     case 19:
+      return with_idle_primitives(random);
+    case 20:
       return whole("one triangle", scenes::triangle_soup(1, 0.5, 0.5, random));
     default:
       return whole("grid soup", soup(random, 0.6, 0.1, 25));

@@ -6,7 +6,7 @@
 namespace onset::tests {
 
 // The first `kSmallScenes` are one of each kind.
-inline constexpr int kSmallScenes = 21;
+inline constexpr int kSmallScenes = 22;
 WholeScene generated(int number);
 
 }  // namespace onset::tests
