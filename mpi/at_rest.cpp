@@ -61,8 +61,8 @@ ClosePairs close_pairs(const Mesh& mesh, const Positions& x, double d_hat, const
   const FloatEnvironment environment;
   const Mesh::Impl& m = mesh.impl();
   ClosePairs r;
-  m.comm.agreed([&] { check_d_hat(d_hat, false); });
-  begin_call(m, "close pairs", options, d_hat);
+  const auto check = [&] { check_d_hat(d_hat, false); };
+  begin_call(m, "close pairs", options, {d_hat}, FunctionRef<>(check));
   std::pair<Outcome, int> status;
   const Part part = part_at(m, x, options, true, d_hat, status);
   r.d_hat = d_hat, r.outcome = status.first, r.vertex = status.second;

@@ -26,6 +26,12 @@ void check_step(const char* name, double step) {
     throw std::invalid_argument(std::string(name) + " is " + std::to_string(step) + "; it must be in [0, 1]");
 }
 
+template <class Impl>
+const Impl& of(const std::unique_ptr<Impl>& impl) {
+  if (!impl) throw std::logic_error("this line search was moved from");
+  return *impl;
+}
+
 // The sums x + dx of the rows that are read, as onset::LineSearch forms them; row by row, `columns` each.
 std::vector<double> sum(const Mesh::Impl& m, const Positions& x, const Positions& dx) {
   if (x.rows() != dx.rows() || x.cols() != dx.cols())
@@ -76,11 +82,11 @@ LineSearch::LineSearch(const Mesh& mesh, const Positions& x_t0, const Positions&
                        const LineSearchOptions& options) {
   const FloatEnvironment environment;
   const Mesh::Impl& m = mesh.impl();
-  m.comm.agreed([&] {
+  const auto prepare = [&] {
     check_line(options);
     impl_ = std::make_unique<Impl>(Impl{m, options, {Outcome::free, -1}, {}, {}});
-  });
-  begin_call(m, "line search", options, options.d_hat + 2 * options.gap_share);
+  };
+  begin_call(m, "line search", options, {options.d_hat, options.gap_share}, FunctionRef<>(prepare));
   std::vector<double> x_t1;
   m.comm.agreed([&] { x_t1 = sum(m, x_t0, dx); });
   OwnMotion own = take_motion(m, x_t0, Positions(x_t1.data(), x_t0.rows(), int(x_t0.cols())));
@@ -110,10 +116,10 @@ LineSearch& LineSearch::operator=(LineSearch&&) noexcept = default;
 
 LineSearchStep LineSearch::largest_step(double upper) const {
   const FloatEnvironment environment;
-  const Impl& h = *impl_;
+  const Impl& h = of(impl_);
   const Communicator& comm = h.mesh.comm;
-  comm.agreed([&] { check_step("upper", upper); });
-  begin_call(h.mesh, "largest step", h.options, upper);
+  const auto check = [&] { check_step("upper", upper); };
+  begin_call(h.mesh, "largest step", h.options, {upper}, FunctionRef<>(check));
   LineSearchStep r;
   r.gap_share = h.options.gap_share;
   r.outcome = h.status.first, r.vertex = h.status.second;
@@ -137,14 +143,14 @@ LineSearchStep LineSearch::largest_step(double upper) const {
 
 ClosePairs LineSearch::close_pairs(double step) const {
   const FloatEnvironment environment;
-  const Impl& h = *impl_;
+  const Impl& h = of(impl_);
   const Communicator& comm = h.mesh.comm;
-  comm.agreed([&] {
+  const auto check = [&] {
     check_step("step", step);
     if (h.options.d_hat == 0)
       throw std::invalid_argument("close_pairs of a line search that was given no d_hat");
-  });
-  begin_call(h.mesh, "close pairs of a line search", h.options, step);
+  };
+  begin_call(h.mesh, "close pairs of a line search", h.options, {step}, FunctionRef<>(check));
   ClosePairs r;
   r.d_hat = h.options.d_hat;
   r.outcome = h.status.first, r.vertex = h.status.second;

@@ -23,11 +23,12 @@ std::uint64_t bits(double x) {
 }
 
 // Of what must be the same on all ranks.
-std::uint64_t hash_of(const char* name, const Options& o, double number) {
+std::uint64_t hash_of(const char* name, const Options& o, std::initializer_list<double> numbers) {
   std::uint64_t hash = 1;
   for (; *name != '\0'; ++name) hash = mix(hash, std::uint64_t(*name));
-  for (const double x : {o.tolerance.value_or(-1), o.relative_tolerance, o.min_separation, o.window, number})
+  for (const double x : {o.tolerance.value_or(-1), o.relative_tolerance, o.min_separation, o.window})
     hash = mix(hash, bits(x));
+  for (const double x : numbers) hash = mix(hash, bits(x));
   for (const int x : {int(o.norm), int(o.exactness), int(o.touching_may_pass_through), int(o.narrow_phase)})
     hash = mix(hash, std::uint64_t(x));
   return mix(hash, std::uint64_t(o.max_checks));
@@ -66,14 +67,17 @@ void keep_first(SceneLimits& into, const SceneLimits& from) {
 
 }  // namespace
 
-void begin_call(const Mesh::Impl& m, const char* name, const Options& options, double number) {
+// Every call begins with the same two messages, so that ranks in different ones find out.
+void begin_call(const Mesh::Impl& m, const char* name, const Options& options,
+                std::initializer_list<double> numbers, FunctionRef<> check_more) {
   m.comm.reset_traffic();
   m.comm.agreed([&] {
     check(options);
+    check_more();
     if (options.check_limit < std::numeric_limits<std::int64_t>::max())
       throw std::invalid_argument("check_limit is not offered over ranks");
   });
-  m.comm.require_same("the call and its options", hash_of(name, options, number));
+  m.comm.require_same("the call and its options", hash_of(name, options, numbers));
 }
 
 void end_call(const Mesh::Impl& m, std::int64_t pairs) {

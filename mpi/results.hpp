@@ -1,8 +1,10 @@
 // What the parts found, as one result.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 
+#include "base/function_ref.hpp"
 #include "mpi/exchange/part.hpp"
 #include "onset/mpi/calls.hpp"
 #include "src/shared/pair_traversal.hpp"
@@ -11,7 +13,9 @@ namespace onset::mpi {
 
 // (c) Begins a call: checks that all ranks make the same one with the same options, and forgets the traffic
 // of the last one. Throws as the call of one process does, and for Options::check_limit.
-void begin_call(const Mesh::Impl& mesh, const char* name, const Options& options, double number = 0);
+// `numbers` have to be the same, too; `check` says what else may be wrong, on this rank alone.
+void begin_call(const Mesh::Impl& mesh, const char* name, const Options& options,
+                std::initializer_list<double> numbers = {}, FunctionRef<> check = FunctionRef<>([] {}));
 // Ends it: notes the traffic, and how many pairs were looked at here.
 void end_call(const Mesh::Impl& mesh, std::int64_t pairs);
 
