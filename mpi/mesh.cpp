@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -60,6 +62,13 @@ void check_part(const MeshPart& part) {
   if (part.rules.rest_positions.size() > 0) reject("rest_positions is not offered over ranks");
 }
 
+void check_vertex_ids(const std::vector<int>& ids, std::int64_t vertices) {
+  for (std::size_t r = 0; r < ids.size(); ++r)
+    if (ids[r] < 0 || ids[r] >= vertices)
+      reject("vertex_ids row " + std::to_string(r) + ": " + std::to_string(ids[r]) +
+             " is out of range, the ranks own " + std::to_string(vertices) + " vertices");
+}
+
 std::vector<Element<2>> points_of(const MeshPart& part) {
   std::vector<Element<2>> points;
   for (std::size_t r = 0; r < part.rules.points.size(); ++r) {
@@ -78,6 +87,7 @@ void find_elements(const MeshPart& part, Mesh::Impl& m) {
   std::vector<Element<3>> faces;
   std::vector<Element<2>> edges, points;
   comm.agreed([&] {
+    check_vertex_ids(part.vertex_ids, m.vertices);
     faces = elements<3>("face", part.faces, part.face_ids, part.vertex_ids);
     edges = elements<2>("edge", part.edges, part.edge_ids, part.vertex_ids);
     points = points_of(part);
@@ -143,9 +153,24 @@ void find_slots(const MeshPart& part, const VertexOwners& owners, Mesh::Impl& m)
   });
 }
 
+// (c) A rank without memory for it tells the others, who would wait for it in the duplication.
+template <class Impl>
+std::unique_ptr<Impl> make_impl(MPI_Comm comm) {
+  std::unique_ptr<Impl> impl;
+  try {
+    impl = std::make_unique<Impl>();
+  } catch (const std::bad_alloc&) {
+  }
+  int made = impl != nullptr;
+  MPI_Allreduce(MPI_IN_PLACE, &made, 1, MPI_INT, MPI_MIN, comm);
+  if (!made) throw std::bad_alloc();
+  impl->comm.duplicate(comm);
+  return impl;
+}
+
 }  // namespace
 
-Mesh::Mesh(MPI_Comm comm, const MeshPart& part) : impl_(std::make_unique<Impl>(comm)) {
+Mesh::Mesh(MPI_Comm comm, const MeshPart& part) : impl_(make_impl<Impl>(comm)) {
   Impl& m = *impl_;
   const FloatEnvironment environment;
   std::vector<int> owned;

@@ -35,7 +35,7 @@ void set_text(Failure& failure, Failure::Kind kind, const char* text) noexcept {
 
 }  // namespace
 
-Communicator::Communicator(MPI_Comm comm) {
+void Communicator::duplicate(MPI_Comm comm) {
   MPI_Comm_dup(comm, &comm_);
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
@@ -45,7 +45,7 @@ Communicator::Communicator(MPI_Comm comm) {
 Communicator::~Communicator() {
   int ended = 0;
   MPI_Finalized(&ended);
-  if (!ended) MPI_Comm_free(&comm_);
+  if (!ended && comm_ != MPI_COMM_NULL) MPI_Comm_free(&comm_);
 }
 
 Failure Communicator::describe(const std::exception_ptr& error) noexcept {

@@ -29,7 +29,8 @@ using PerRank = std::vector<std::vector<T>>;
 // collective: every rank calls them, in the same order.
 class Communicator {
  public:
-  explicit Communicator(MPI_Comm comm);  // (c)
+  Communicator() = default;       // of nobody: only to be assigned by `duplicate`
+  void duplicate(MPI_Comm comm);  // (c)
   ~Communicator();
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;

@@ -24,8 +24,6 @@ struct NearVertices {
 };
 
 struct Mesh::Impl {
-  explicit Impl(MPI_Comm of) : comm(of) {}
-
   Communicator comm;
   int dimension = 3;
   std::ptrdiff_t rows = 0, owned = 0;

@@ -107,6 +107,12 @@ std::int64_t keep_owned(const Communicator& comm, const char* what, std::vector<
   std::int64_t count = 0;
   for (const Element<N>& e : elements) count = std::max(count, std::int64_t(e.id) + 1);
   comm.maximum(&count, 1);
+  std::int64_t given = std::int64_t(elements.size());
+  comm.sum(&given, 1);
+  if (count > given)  // before anything is made that is as large as the largest id
+    throw std::invalid_argument(std::string(what) + " id " + std::to_string(count - 1) +
+                                " is given, but the ranks give " + std::to_string(given) +
+                                " in all, and ids have no gaps");
   const Directory directory(comm, count);
   PerRank<Element<N>> out;
   const auto row = [&](int id) { return std::string(what) + " id " + std::to_string(id); };
