@@ -30,16 +30,19 @@ enum class Fault {
   other_rules,
   bad_id,
   lost_face,
-  last = lost_face
+  huge_face_id,
+  other_call,
+  last = other_call
 };
 const char* to_string(Fault fault) {
-  constexpr const char* kNames[] = {"none",          "NaN",
-                                    "infinity",      "wrong number of rows",
-                                    "bad option",    "other option",
-                                    "cancel",        "throw",
-                                    "time limit",    "memory limit",
-                                    "bad_alloc",     "other rules",
-                                    "bad vertex id", "a face that nobody has"};
+  constexpr const char* kNames[] = {"none",           "NaN",
+                                    "infinity",       "wrong number of rows",
+                                    "bad option",     "other option",
+                                    "cancel",         "throw",
+                                    "time limit",     "memory limit",
+                                    "bad_alloc",      "other rules",
+                                    "bad vertex id",  "a face that nobody has",
+                                    "a huge face id", "another call"};
   return kNames[int(fault)];
 }
 
@@ -57,7 +60,9 @@ struct Case {
 
 void change_part(const Case& c, mpi::MeshPart& part) {
   if (c.fault == Fault::other_rules) part.rules.weld = !part.rules.weld;
-  if (c.fault == Fault::bad_id && !part.vertex_ids.empty()) part.vertex_ids[0] = c.when % 2 ? 1 << 20 : -3;
+  if (c.fault == Fault::bad_id && !part.vertex_ids.empty())  // an owned one, or a ghost where there is any
+    (c.when % 4 < 2 ? part.vertex_ids.front() : part.vertex_ids.back()) = c.when % 2 ? 1 << 20 : -3;
+  if (c.fault == Fault::huge_face_id && !part.face_ids.empty()) part.face_ids.back() = 2000000000;
   if (c.fault == Fault::lost_face && !part.face_ids.empty()) part.face_ids[0] += 1000;
 }
 
@@ -84,9 +89,11 @@ void change_options(const Case& c, Options& o) {
 
 Outcome run(MPI_Comm comm, const Case& c, const mpi::MeshPart& part, const Eigen::MatrixXd& x_t0,
             const Eigen::MatrixXd& x_t1, const Options& options, bool faulty) {
+  const bool fails = faulty && c.fault == Fault::no_memory;
+  if (fails && c.when % 2 == 1) fail_at_allocation(1 + c.when / 2);
   const mpi::Mesh mesh(comm, part);
-  if (faulty && c.fault == Fault::no_memory) fail_at_allocation(1 + c.when);
-  switch (c.call) {
+  if (fails && c.when % 2 == 0) fail_at_allocation(1 + c.when / 2);
+  switch (faulty && c.fault == Fault::other_call ? (c.call + 1) % 6 : c.call) {
     case 0:
       return mpi::compute_collision_free_stepsize(mesh, x_t0, x_t1, options).outcome;
     case 1:
@@ -143,8 +150,9 @@ struct Ended {
 Ended inject(MPI_Comm comm, int i, const Case& c) {
   int size = 1, rank = 0;
   MPI_Comm_size(comm, &size), MPI_Comm_rank(comm, &rank);
-  const WholeScene scene = generated(i % 3 == 0 ? 6 : i % 3 == 1 ? 2 : 7);
-  const std::vector<int> rank_of = ranks_of_vertices(scene, kCuts[i % 5], size, unsigned(i));
+  const int round = i / int(Fault::last);  // each fault meets all scenes and cuts in turn
+  const WholeScene scene = generated(round % 3 == 0 ? 6 : round % 3 == 1 ? 2 : 7);
+  const std::vector<int> rank_of = ranks_of_vertices(scene, kCuts[round % 5], size, unsigned(i));
   const mpi::MeshPart part = part_of(scene, rank_of, rank);
   const Eigen::MatrixXd x_t0 = rows_of(part, scene.x_t0), x_t1 = rows_of(part, scene.x_t1);
   Ended r;
