@@ -47,7 +47,7 @@ bool has_avx512() {
 #endif
 }
 
-// Those processors lack this part of it.
+// The first processors with AVX-512, which lower their clock for wide registers, lack this part of it.
 bool prefers_avx512() {
 #ifdef ONSET_HAVE_AVX512
   return has_avx512() && __builtin_cpu_supports("avx512vbmi2");
