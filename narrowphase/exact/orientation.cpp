@@ -86,7 +86,8 @@ int orientation(const double* a, const double* b, const double* c, const double*
   if (largest == 0) return 0;
   // The determinant's terms have bits down to (smallest * 2^-52)^3, above 2^-1022 (docs/theory.md, §19).
   if (smallest < largest * 0x1p-280) return kUnknownSide;
-  const double scale = std::ldexp(1.0, -std::ilogb(largest));
+  // Subnormal coordinates are multiples of 2^-51 then: exact, too. A greater power of two is no double.
+  const double scale = std::ldexp(1.0, std::min(1023, -std::ilogb(largest)));
   Expansion<2> m[3][3];
   for (int r = 0; r < 3; ++r)
     for (int i = 0; i < 3; ++i) m[r][i] = difference(rows[r][i] * scale, d[i] * scale);

@@ -47,3 +47,18 @@ TEST_CASE("orientation says so when exact products would underflow", "[unit]") {
   const double p[4][3] = {{1, 0, 0}, {0, 0x1p-900, 0}, {0, 0, 1}, {0, 0, 0}};
   CHECK(computed_sign(p) == onset::kUnknownSide);
 }
+
+TEST_CASE("orientation agrees with rationals on subnormal points", "[unit][oracle]") {
+  std::mt19937_64 random(2);
+  std::uniform_int_distribution<int> few(-3, 3);
+  int signs[3] = {};
+  for (int i = 0; i < 2000; ++i) {
+    double p[4][3];
+    for (auto& point : p)
+      for (double& x : point) x = few(random) * std::ldexp(1.0, -1074 + i % 60);
+    const int sign = exact_sign(p);
+    ++signs[sign + 1];
+    REQUIRE(computed_sign(p) == sign);
+  }
+  for (const int count : signs) CHECK(count > 100);
+}
