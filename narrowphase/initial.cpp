@@ -11,6 +11,8 @@ namespace {
 
 constexpr int kHalvings = 24;
 constexpr double kMostHalved = 0x1p23;  // the shortest length that `latest` tries is one over this
+static_assert(kMostHalved == double(1 << (kHalvings - 1)),
+              "what `goes_through` refutes is what `latest` tries");
 
 struct Hull {
   int count;
