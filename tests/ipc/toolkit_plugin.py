@@ -64,6 +64,7 @@ def main():
         toured = pool.submit(compiled, pathlib.Path(tour), "tour", "-DONSET_TOUR_OF_IPC_TOOLKIT")
         found = [job.result() for job in [*jobs, ours]]
         toured.result()
+    program = work / "toolkit_plugin"
     subprocess.run([compiler, *found, "-o", program, "-Wl,--gc-sections", *libraries], check=True)
     subprocess.run([program], check=True)
 
