@@ -32,6 +32,18 @@ PerRank<Edge> by_directory(const Communicator& comm, const Directory& directory,
   return out;
 }
 
+PerRank<int> by_directory(const Communicator& comm, const Directory& directory, const std::vector<int>& ids,
+                          std::int64_t vertices) {
+  PerRank<int> out(std::size_t(comm.size()));
+  for (const int id : ids) {
+    if (id < 0 || id >= vertices)
+      throw std::invalid_argument("vertex id " + std::to_string(id) + " is out of range, the ranks own " +
+                                  std::to_string(vertices) + " vertices");
+    out[directory.rank_of(id)].push_back(id);
+  }
+  return out;
+}
+
 // The answers to what each rank asked, put back in the order of the questions, which went to ranks in
 // ascending order of ids.
 template <class Answer, class Question, class RankOf, class Take>
@@ -54,13 +66,7 @@ VertexOwners::VertexOwners(const Communicator& comm, const std::vector<int>& own
   comm.agreed([&] {
     if (count_ > std::numeric_limits<int>::max())
       throw std::invalid_argument("there are more than 2^31 - 1 vertices");
-    out.resize(std::size_t(comm.size()));
-    for (const int id : owned) {
-      if (id < 0 || id >= count_)
-        throw std::invalid_argument("vertex id " + std::to_string(id) + " is out of range, the ranks own " +
-                                    std::to_string(count_) + " vertices");
-      out[directory.rank_of(id)].push_back(id);
-    }
+    out = by_directory(comm, directory, owned, count_);
   });
   const PerRank<int> in = comm.exchange(out);
   comm.agreed([&] {
@@ -79,15 +85,7 @@ VertexOwners::VertexOwners(const Communicator& comm, const std::vector<int>& own
 std::vector<int> VertexOwners::of(const std::vector<int>& ids) const {
   const Directory directory(comm_, count_);
   PerRank<int> out;
-  comm_.agreed([&] {
-    out.resize(std::size_t(comm_.size()));
-    for (const int id : ids) {
-      if (id < 0 || id >= count_)
-        throw std::invalid_argument("vertex id " + std::to_string(id) + " is out of range, the ranks own " +
-                                    std::to_string(count_) + " vertices");
-      out[directory.rank_of(id)].push_back(id);
-    }
-  });
+  comm_.agreed([&] { out = by_directory(comm_, directory, ids, count_); });
   PerRank<int> asked = comm_.exchange(out);
   for (std::vector<int>& of_rank : asked)
     for (int& id : of_rank) id = owner_[directory.place(id)];
