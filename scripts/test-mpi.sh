@@ -36,7 +36,7 @@ for mpi in openmpi mpich; do
         -DMPIEXEC_EXECUTABLE=/usr/bin/mpirun.$mpi >/dev/null
   cmake --build build/mpi/$mpi
   # MPICH gives way to no other rank while it waits, so that more ranks than cores take long.
-  scenes=21
+  scenes=22
   for ranks in 1 2 4; do
     [ $mpi-$ranks != mpich-4 ] || scenes=3
     run $mpi $ranks small $scenes
