@@ -12,6 +12,8 @@ import tempfile
 import time
 import unittest
 
+from kernels import kernels
+
 BINARY = os.environ["ONSET_CLOTH"]
 
 
@@ -19,12 +21,6 @@ def header_and_size(path):
     data = path.read_bytes()
     header, body = data.split(b"end_header\n", 1)
     return header.decode(), len(body)
-
-
-def kernels():
-    """That the processor has."""
-    flags = pathlib.Path("/proc/cpuinfo").read_text()
-    return ["scalar", *(["avx2"] if "avx2" in flags else []), *(["avx512"] if "avx512vbmi2" in flags else [])]
 
 
 class Cloth(unittest.TestCase):

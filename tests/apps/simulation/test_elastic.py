@@ -11,6 +11,8 @@ import tempfile
 import time
 import unittest
 
+from kernels import kernels
+
 BINARY = os.environ["ONSET_ELASTIC"]
 METHODS = ["barrier", "active-set"]
 
@@ -66,12 +68,6 @@ def frame_points(path):
     head, body = path.read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
     count, = struct.unpack("<Q", body[:8])
     return head, list(struct.iter_unpack("<3d", body[8:8 + count]))
-
-
-def kernels():
-    """That the processor has."""
-    flags = pathlib.Path("/proc/cpuinfo").read_text()
-    return ["scalar", *(["avx2"] if "avx2" in flags else []), *(["avx512"] if "avx512vbmi2" in flags else [])]
 
 
 class Elastic(unittest.TestCase):
