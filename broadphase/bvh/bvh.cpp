@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "broadphase/bvh/box_tree.hpp"
 #include "broadphase/bvh/static_trees.hpp"
+#include "broadphase/couples.hpp"
 
 namespace onset {
 
@@ -59,18 +60,15 @@ class Bvh final : public BroadPhase {
   }
 
   std::size_t blocks(PairKind kind) const override {
-    const auto& couples = couples_[std::size_t(kind)];
-    return !ready_ || couples.empty() ? 0 : couples.back().end;
+    return ready_ ? blocks_of(couples_[std::size_t(kind)]) : 0;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
     const FreeList<TraversalMemory>::Loan memory(memory_);
-    std::size_t begin = 0;
-    for (const Couple& couple : couples_[std::size_t(kind)]) {
-      const std::size_t from = std::max(first, begin), to = std::min(last, couple.end);
-      if (from < to) traverse(kind, couple, from - begin, to - begin, sink, *memory);
-      begin = couple.end;
-    }
+    each_couple(couples_[std::size_t(kind)], first, last,
+                [&](const Couple& couple, std::size_t from, std::size_t to) {
+                  traverse(kind, couple, from, to, sink, *memory);
+                });
   }
 
  private:
@@ -119,7 +117,7 @@ class Bvh final : public BroadPhase {
   }
   static void add(std::vector<Couple>& couples, const BoxTree& query, const BoxTree& other) {
     if (query.units() == 0 || other.units() == 0) return;
-    couples.push_back({&query, &other, (couples.empty() ? 0 : couples.back().end) + query.units()});
+    couples.push_back({&query, &other, blocks_of(couples) + query.units()});
   }
 
   static constexpr double kMostRoughened = 1.25;

@@ -5,6 +5,7 @@
 #include "base/free_list.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
+#include "broadphase/couples.hpp"
 #include "broadphase/hash/block_pairs.hpp"
 #include "broadphase/hash/cell_width.hpp"
 #include "broadphase/hash/hash_side.hpp"
@@ -39,18 +40,15 @@ class SpatialHash final : public BroadPhase {
   }
 
   std::size_t blocks(PairKind kind) const override {
-    const auto& couples = couples_[std::size_t(kind)];
-    return !ready_ || couples.empty() ? 0 : couples.back().end;
+    return ready_ ? blocks_of(couples_[std::size_t(kind)]) : 0;
   }
 
   void traverse(PairKind kind, std::size_t first, std::size_t last, const PairSink& sink) const override {
     const FreeList<TraversalMemory>::Loan memory(memory_);
-    std::size_t begin = 0;
-    for (const Couple& couple : couples_[std::size_t(kind)]) {
-      const std::size_t from = std::max(first, begin), to = std::min(last, couple.end);
-      if (from < to) traverse(kind, couple, from - begin, to - begin, sink, *memory);
-      begin = couple.end;
-    }
+    each_couple(couples_[std::size_t(kind)], first, last,
+                [&](const Couple& couple, std::size_t from, std::size_t to) {
+                  traverse(kind, couple, from, to, sink, *memory);
+                });
   }
 
  private:
@@ -117,9 +115,9 @@ class SpatialHash final : public BroadPhase {
   void add(std::vector<Couple>& couples, const HashSide& query, const HashSide& other) {
     if (query.cells.blocks() == 0 || other.cells.blocks() == 0) return;
     if (&query != &other && query.tree->apart(*other.tree, input_->test != BoxTest::swept)) return;
-    const auto end = [&] { return couples.empty() ? 0 : couples.back().end; };
-    couples.push_back({&query, &other, true, end() + query.tree->units()});
-    if (&query != &other) couples.push_back({&query, &other, false, end() + other.tree->units()});
+    couples.push_back({&query, &other, true, blocks_of(couples) + query.tree->units()});
+    if (&query != &other)
+      couples.push_back({&query, &other, false, blocks_of(couples) + other.tree->units()});
   }
 
   void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
