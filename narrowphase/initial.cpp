@@ -101,21 +101,23 @@ bool goes_through(const InitialCase& c, const Hull& here, const Side& side) {
   const bool edges = here.count == 4;
   const Vec &w = side.normal, e1 = here.c[edges ? 2 : 1] - here.c[0], e2 = here.c[edges ? 1 : 2] - here.c[0];
   const double aa = dot(e1, e1), ab = dot(e1, e2), bb = dot(e2, e2), det = aa * bb - ab * ab;
+  if (!(det > 0)) return false;
   const double p = dot(e1, here.c[0]), q = dot(e2, here.c[0]);
   const double u = (ab * q - bb * p) / det, v = (ab * p - aa * q) / det;
   const double of_edges[4] = {(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v};
   const double of_face[4] = {1 - u - v, u, v, 1};
   const double* weight = edges ? of_edges : of_face;
   const double least = *std::min_element(weight, weight + here.count);
-  if (!(det > 0 && least > 0)) return false;
+  if (!(least > 0)) return false;
   Vec f{};
   for (int k = 0; k < here.count; ++k) f = f + weight[k] * here.c[k];
   const double urho = kU * c.corners.rho, len1 = std::sqrt(aa), len2 = std::sqrt(bb);
   const double m = 1.01 * (std::sqrt(dot(f, f)) + 36 * urho) / least;
   const double across = std::max(std::fabs(dot(w, e1)), std::fabs(dot(w, e2))) + 16 * urho;
   const double area = std::fabs(dot(w, cross(e1, e2))) - 64 * kU * len1 * len2;
+  if (!(area > 0)) return false;
   const double r = (2 * m + 4 * urho + across) * (len1 + len2) / area;
-  if (!(area > 0 && r <= 0.25)) return false;
+  if (!(r <= 0.25)) return false;
   for (int k = 0; k < here.count; ++k) {
     const Vec g = vec(c.corners.c[1][k]);
     if (side.sign * dot(w, g) < -(1.2 * (kMostHalved * m + r * std::sqrt(dot(g, g))) + 32 * urho))
