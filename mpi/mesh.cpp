@@ -102,6 +102,7 @@ void find_elements(const MeshPart& part, Mesh::Impl& m) {
   }
   m.faces = keep_owned(comm, "face", faces);
   m.points = keep_owned(comm, "point", points);
+  require_lone_points(comm, m.vertices, points, edges, faces);
   comm.agreed([&] {
     if (m.edges + m.points > std::numeric_limits<int>::max()) reject("there are more than 2^31 - 1 edges");
     for (Element<2>& p : points) p.id += int(m.edges);

@@ -41,7 +41,7 @@ for mpi in openmpi mpich; do
     [ $mpi-$ranks != mpich-4 ] || scenes=3
     run $mpi $ranks small $scenes
   done
-  run $mpi 2 faults 45
+  run $mpi 2 faults 48
 done
 [ -n "$all" ] || exit 0
 

@@ -227,4 +227,46 @@ void require_edges(const Communicator& comm, std::int64_t vertices, const std::v
   });
 }
 
+void require_lone_points(const Communicator& comm, std::int64_t vertices,
+                         const std::vector<Element<2>>& points, const std::vector<Element<2>>& edges,
+                         const std::vector<Element<3>>& faces) {
+  std::int64_t count = std::int64_t(points.size());
+  comm.sum(&count, 1);
+  if (count == 0) return;
+  const Directory directory(comm, vertices);
+  PerRank<int> in_elements, of_points;
+  comm.agreed([&] {
+    const auto vertices_of = [](const auto&... lists) {
+      std::vector<int> ids;
+      const auto add = [&](const auto& list) {
+        for (const auto& e : list) ids.insert(ids.end(), e.vertices.begin(), e.vertices.end());
+      };
+      (add(lists), ...);
+      std::sort(ids.begin(), ids.end());
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+      return ids;
+    };
+    in_elements = by_directory(comm, directory, vertices_of(edges, faces), vertices);
+    std::vector<int> alone;
+    for (const Element<2>& p : points) alone.push_back(p.vertices[0]);
+    of_points = by_directory(comm, directory, alone, vertices);
+  });
+  in_elements = comm.exchange(in_elements);
+  of_points = comm.exchange(of_points);
+  comm.agreed([&] {
+    enum : char { none, element, point };
+    std::vector<char> used(directory.size(), none);
+    for (const std::vector<int>& ids : in_elements)
+      for (const int v : ids) used[directory.place(v)] = element;
+    for (const std::vector<int>& ids : of_points)
+      for (const int v : ids) {
+        char& by = used[directory.place(v)];
+        if (by != none)
+          throw std::invalid_argument("points: vertex " + std::to_string(v) +
+                                      (by == element ? " belongs to an edge or a face" : " is repeated"));
+        by = point;
+      }
+  });
+}
+
 }  // namespace onset::mpi

@@ -46,4 +46,10 @@ std::int64_t edges_of_faces(const Communicator& comm, std::int64_t vertices,
 void require_edges(const Communicator& comm, std::int64_t vertices, const std::vector<Element<3>>& faces,
                    const std::vector<Element<2>>& edges);
 
+// (c) Throws std::invalid_argument where a point's vertex is that of another point, edge or face, of any
+// rank.
+void require_lone_points(const Communicator& comm, std::int64_t vertices,
+                         const std::vector<Element<2>>& points, const std::vector<Element<2>>& edges,
+                         const std::vector<Element<3>>& faces);
+
 }  // namespace onset::mpi

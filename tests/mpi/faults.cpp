@@ -31,6 +31,7 @@ enum class Fault {
   bad_id,
   lost_face,
   huge_face_id,
+  used_point,
   other_call,
   last = other_call
 };
@@ -42,7 +43,8 @@ const char* to_string(Fault fault) {
                                     "time limit",     "memory limit",
                                     "bad_alloc",      "other rules",
                                     "bad vertex id",  "a face that nobody has",
-                                    "a huge face id", "another call"};
+                                    "a huge face id", "a point of a face",
+                                    "another call"};
   return kNames[int(fault)];
 }
 
@@ -64,6 +66,8 @@ void change_part(const Case& c, mpi::MeshPart& part) {
     (c.when % 4 < 2 ? part.vertex_ids.front() : part.vertex_ids.back()) = c.when % 2 ? 1 << 20 : -3;
   if (c.fault == Fault::huge_face_id && !part.face_ids.empty()) part.face_ids.back() = 2000000000;
   if (c.fault == Fault::lost_face && !part.face_ids.empty()) part.face_ids[0] += 1000;
+  if (c.fault == Fault::used_point && part.faces.rows() > 0)
+    part.rules.points = {int(part.faces(0, 0))}, part.point_ids = {0};
 }
 
 void change_positions(const Case& c, const mpi::MeshPart& part, Eigen::MatrixXd& x) {

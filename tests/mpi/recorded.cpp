@@ -10,16 +10,18 @@
 namespace onset::tests {
 namespace {
 
+// most_memory: of a rank, for that of one process with as many primitives; what does not depend on their
+// number weighs more in small scenes.
 struct Step {
   const char *folder, *from, *to;
+  double most_memory;
 };
-constexpr Step kSteps[] = {{"cloth-ball", "cloth_ball92", "cloth_ball93"},
-                           {"armadillo-rollers", "326", "327"},
-                           {"cloth-funnel", "227", "228"}};
+constexpr Step kSteps[] = {{"cloth-ball", "cloth_ball92", "cloth_ball93", 1.1},
+                           {"armadillo-rollers", "326", "327", 1.2},
+                           {"cloth-funnel", "227", "228", 1.2}};
 
-// What docs/distributed.md says: ghosts for each primitive within reach of another rank's, and the memory of
-// a rank for that of one process with as many primitives.
-constexpr double kMostGhosts = 2, kMostMemory = 1.2;
+// For each primitive within reach of another rank's (docs/distributed.md).
+constexpr double kMostGhosts = 2;
 
 WholeScene read(const std::string& folder, const Step& step) {
   const std::string frames = folder + "/" + step.folder + "/frames/";
@@ -74,7 +76,7 @@ std::int64_t within_reach(const WholeScene& s, const std::vector<int>& rank_of, 
   return count;
 }
 
-void check_exchange(MPI_Comm comm, const WholeScene& s, Checks& checks) {
+void check_exchange(MPI_Comm comm, const WholeScene& s, double most_memory, Checks& checks) {
   int size = 1, rank = 0;
   MPI_Comm_size(comm, &size), MPI_Comm_rank(comm, &rank);
   const std::vector<int> rank_of = ranks_of_vertices(s, Cut::rcb, size, 0);
@@ -117,7 +119,7 @@ void check_exchange(MPI_Comm comm, const WholeScene& s, Checks& checks) {
     std::printf("  %4d %7.0f %7.0f %13.0f %11.0f %9.0f %7.0f %15.3f\n", r, x[0], x[1], x[2], x[3], x[4], x[5],
                 x[6]);
     ++checks.calls;
-    if (x[1] > kMostGhosts * x[2] || x[6] > kMostMemory) ++checks.different;
+    if (x[1] > kMostGhosts * x[2] || x[6] > most_memory) ++checks.different;
   }
   std::printf("  one process: %.0f bytes a primitive\n", row[7]);
 }
@@ -132,7 +134,7 @@ void check_recorded(MPI_Comm comm, const std::string& folder, Checks& checks) {
 }
 
 void check_exchange(MPI_Comm comm, const std::string& folder, Checks& checks) {
-  for (const Step& step : kSteps) check_exchange(comm, read(folder, step), checks);
+  for (const Step& step : kSteps) check_exchange(comm, read(folder, step), step.most_memory, checks);
 }
 
 }  // namespace onset::tests
