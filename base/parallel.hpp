@@ -75,15 +75,20 @@ void call_host(F&& f) {
 // Returns how many threads the current arena may use.
 int current_threads();
 
+// Returns into how many pieces, a power of two, a sort of so many items is divided.
+inline std::size_t sort_pieces(std::size_t count) {
+  constexpr std::size_t kFew = 2000, kMostPieces = 64;
+  std::size_t pieces = 1;
+  while (pieces < kMostPieces && pieces < std::size_t(current_threads()) && count / pieces > kFew)
+    pieces *= 2;
+  return pieces;
+}
+
 // A total order is required of `less`: the result is then independent of the number of threads. Calls without
 // options sort in the caller's arena: they too take on no other work of it.
 template <class It, class Less>
 void parallel_sort(It first, It last, Less less) {
-  constexpr std::size_t kFew = 2000, kMostPieces = 64;
-  const std::size_t count = std::size_t(last - first);
-  std::size_t pieces = 1;
-  while (pieces < kMostPieces && pieces < std::size_t(current_threads()) && count / pieces > kFew)
-    pieces *= 2;
+  const std::size_t count = std::size_t(last - first), pieces = sort_pieces(count);
   if (pieces == 1) return std::sort(first, last, less);
   const auto at = [&](std::size_t piece) {
     return first + typename std::iterator_traits<It>::difference_type(count / pieces * piece +

@@ -11,7 +11,7 @@
 namespace onset {
 namespace {
 
-constexpr std::size_t kRowsALook = 1 << 15, kRowsATask = 512, kRowsAtOnce = 64;
+constexpr std::size_t kRowsALook = 1 << 15, kRowsAtOnce = 64, kRowsATask = kRowsAtOnce;
 
 // Adds the geometry of contacts [first, last), which are of one kind and at most kRowsAtOnce.
 void fill_geometry(const Motion& motion, InstructionSet instruction_set, Contact* first, Contact* last) {

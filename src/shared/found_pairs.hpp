@@ -2,15 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/assert.hpp"
 #include "base/parallel.hpp"
-#include "base/radix_sort.hpp"
+#include "base/parallel_radix_sort.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "onset/result.hpp"
 #include "src/shared/budget.hpp"
@@ -118,6 +120,7 @@ class FoundPairs {
   // So many beyond half as many again as are wanted are held before the latest are dropped.
   static constexpr std::size_t kSlack = 1024;
   static constexpr std::size_t kFew = 2000;  // so few are sorted faster by comparing
+  static constexpr std::size_t kPartsATask = 4;
 
   static Time time_of(PairKind kind, const PairResult& r) { return {r.toi, order_of(kind, r.pair)}; }
 
@@ -166,30 +169,50 @@ class FoundPairs {
     held_ = std::min(kRowsCutOff, most_) - left;
   }
 
+  struct Place {
+    std::uint64_t order;
+    const PairResult* result;
+  };
+
   // Sorts sixteen bytes a pair and moves each result once. Returns false where it was stopped.
   bool sort_into(std::vector<FoundPair>& out, const Stop& stop) const {
-    struct Place {
-      std::uint64_t order;
-      const PairResult* result;
-    };
-    std::vector<Place> places;
-    places.reserve(held_);
-    for (const Part& part : parts_) {
-      if (stop.requested()) return false;
-      for (const PairResult& result : part.results)
-        places.push_back({order_of(part.kind, result.pair), &result});
-    }
-    ONSET_ASSERT(places.size() == held_);
+    const std::unique_ptr<Place[]> places(new Place[held_]), scratch(new Place[held_]);
+    if (!list_places(places.get(), stop)) return false;
     if (held_ < kFew)
-      std::sort(places.begin(), places.end(),
+      std::sort(places.get(), places.get() + held_,
                 [](const Place& x, const Place& y) { return x.order < y.order; });
-    else if (!radix_sort(
-                 places, [](const Place& p) { return p.order; }, stop))
+    else if (!parallel_radix_sort(
+                 places.get(), scratch.get(), held_, [](const Place& p) { return p.order; }, stop))
       return false;
     out.reserve(held_);
-    return each_unless(stop, 0, held_, [&](std::size_t i) {
-      out.push_back({kind_of_order(places[i].order), *places[i].result});
+    const auto found = [&](std::size_t i) {
+      return FoundPair{kind_of_order(places[i].order), *places[i].result};
+    };
+    if (sort_pieces(held_) == 1)
+      return each_unless(stop, 0, held_, [&](std::size_t i) { out.push_back(found(i)); });
+    for (; out.size() < held_; out.resize(std::min(out.size() + kItemsALook, held_)))
+      if (stop.requested()) return false;
+    std::atomic<bool> all{true};
+    parallel_ranges(held_, kItemsALook, [&](std::size_t first, std::size_t last) {
+      if (!each_unless(stop, first, last, [&](std::size_t i) { out[i] = found(i); })) all = false;
     });
+    return all;
+  }
+
+  bool list_places(Place* places, const Stop& stop) const {
+    std::vector<std::size_t> start{0};
+    start.reserve(parts_.size() + 1);
+    for (const Part& part : parts_) start.push_back(start.back() + part.results.size());
+    ONSET_ASSERT(start.back() == held_);
+    std::atomic<bool> all{true};
+    parallel_ranges(parts_.size(), kPartsATask, [&](std::size_t first, std::size_t last) {
+      for (; first < last; ++first) {
+        if (stop.requested()) return void(all = false);
+        Place* to = places + start[first];
+        for (const PairResult& r : parts_[first].results) *to++ = {order_of(parts_[first].kind, r.pair), &r};
+      }
+    });
+    return all;
   }
 
   std::size_t most_, held_ = 0;

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "base/radix_sort.hpp"
+#include "base/parallel_radix_sort.hpp"
 #include "tests/asks.hpp"
 #include "tests/catch.hpp"
 #include "tests/queries/random_query.hpp"
@@ -56,5 +56,34 @@ TEST_CASE("sorting by digits can be stopped wherever it asks, once in so many it
     std::vector<Item> lost = items(count, ~std::uint64_t(0), random);
     CHECK_FALSE(radix_sort(lost, key, some.stop()));
     CHECK(some.count == n + 1);
+  }
+}
+
+TEST_CASE("sorting by digits with more threads gives the same", "[unit]") {
+  scenes::Random random(9);
+  const auto key = [](const Item& x) { return x.key; };
+  for (const std::uint64_t mask :
+       {~std::uint64_t(0), std::uint64_t(0xff), std::uint64_t(1), std::uint64_t(0)})
+    for (const int count : {0, 1, 4001, 8003, 100000})
+      for (const int threads : {1, 2, 3, 16}) {
+        std::vector<Item> mine = items(count, mask, random), theirs = mine, scratch(mine.size());
+        in_arena(threads, [&] { CHECK(parallel_radix_sort(mine.data(), scratch.data(), mine.size(), key)); });
+        std::stable_sort(theirs.begin(), theirs.end(),
+                         [](const Item& x, const Item& y) { return x.key < y.key; });
+        CAPTURE(mask, count, threads);
+        CHECK((mine == theirs));
+      }
+}
+
+TEST_CASE("sorting by digits with more threads can be stopped", "[unit]") {
+  scenes::Random random(10);
+  const auto key = [](const Item& x) { return x.key; };
+  const std::vector<Item> all = items(100000, ~std::uint64_t(0), random);
+  for (std::int64_t n = 0; n < 20; ++n) {
+    tests::Asks some(n);
+    std::vector<Item> lost = all, scratch(all.size());
+    in_arena(4, [&] {
+      CHECK_FALSE(parallel_radix_sort(lost.data(), scratch.data(), lost.size(), key, some.stop()));
+    });
   }
 }
