@@ -237,6 +237,7 @@ bool HeldCandidates::take(const BroadPhase& tree, const BroadPhaseInput& input, 
   test_ = input.test;
   inflation_ = part_inflation(input, false), static_inflation_ = part_inflation(input, true);
   list_vertices(input);
+  map_.emplace(input.motion);
   held_ = true;
   return true;
 }
@@ -252,7 +253,7 @@ void HeldCandidates::clear() {
 void HeldCandidates::fit(const BroadPhaseInput& input, double magnitude, const Stop& stop) {
   input_.emplace(input);
   input_->instruction_set = resolve_instruction_set(input.instruction_set);
-  const FloatMap map(input.motion);
+  const FloatMap& map = *map_;
   constexpr std::size_t kStride = std::size_t(kBoxStrideOf[1]);
   rounded_axes_ = 0;
   for (std::size_t c = 0; c < 2; ++c) {
