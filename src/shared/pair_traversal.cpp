@@ -13,7 +13,8 @@
 namespace onset {
 namespace {
 
-constexpr std::size_t kBlocksATask = 16;
+// Few enough for many threads to share a small scene.
+constexpr std::size_t kBlocksATask = 4;
 
 // With a budget of checks, work comes in waves of so many blocks. What a wave does depends only on those
 // before it, so that it is the same for any number of threads.
@@ -42,26 +43,47 @@ class PairTraversal {
     budget.begin_traversal(blocks);
   }
 
-  void run(PairKind kind, NarrowPhaseStats& stats) {
-    const std::size_t blocks = count(kind);
-    if (!budget_.counts_checks()) return run(kind, 0, blocks, stats);
-    for (std::size_t first = 0, wave = kFirstWave; first < blocks;) {
-      budget_.look_at_checks();
-      if (const auto latest = found_.keep_earliest(budget_.stop())) shrink_to(*latest);
-      wave_t_max_ = t_max_.load(std::memory_order_relaxed);
-      const std::size_t last = std::min(first + wave, blocks);
-      const std::int64_t before = stats.checks;
-      run(kind, first, last, stats);
-      budget_.add_checks(stats.checks - before);
-      first = last;
-      wave = std::min(2 * wave, kLargestWave);
-    }
+  void run(TraversalResult& result) {
+    if (!budget_.counts_checks()) return run_all(result);
+    for (const PairKind kind : kStepKinds) run_in_waves(kind, result.of(kind));
   }
 
   std::vector<FoundPair> take() { return found_.take(budget_); }
   const Limits& limits() const { return limits_; }
 
  private:
+  // In one loop, so that no thread waits for the last of a kind.
+  void run_all(TraversalResult& result) {
+    std::size_t blocks = 0;
+    for (const PairKind kind : kStepKinds) blocks += count(kind);
+    parallel_ranges(blocks, kBlocksATask, [&](std::size_t first, std::size_t last) {
+      std::size_t begin = 0;  // of a kind
+      for (const PairKind kind : kStepKinds) {
+        const std::size_t end = begin + count(kind);
+        const std::size_t from = std::max(first, begin), to = std::min(last, end);
+        if (from < to) run_task(kind, from - begin, to - begin, result.of(kind));
+        begin = end;
+      }
+    });
+  }
+
+  void run_in_waves(PairKind kind, NarrowPhaseStats& stats) {
+    const std::size_t blocks = count(kind);
+    for (std::size_t first = 0, wave = kFirstWave; first < blocks;) {
+      budget_.look_at_checks();
+      if (const auto latest = found_.keep_earliest(budget_.stop())) shrink_to(*latest);
+      wave_t_max_ = t_max_.load(std::memory_order_relaxed);
+      const std::size_t last = std::min(first + wave, blocks);
+      const std::int64_t before = stats.checks;
+      parallel_ranges(last - first, kBlocksATask, [&](std::size_t from, std::size_t to) {
+        run_task(kind, first + from, first + to, stats);
+      });
+      budget_.add_checks(stats.checks - before);
+      first = last;
+      wave = std::min(2 * wave, kLargestWave);
+    }
+  }
+
   struct Task {
     PairTraversal& traversal;
     PairKind kind;
@@ -117,18 +139,16 @@ class PairTraversal {
   std::size_t count(PairKind kind) const { return (pairs_.blocks(kind) + stride_ - 1) / stride_; }
 
   // Traverses every stride-th block.
-  void run(PairKind kind, std::size_t from, std::size_t to, NarrowPhaseStats& stats) {
-    parallel_ranges(to - from, kBlocksATask, [&](std::size_t first, std::size_t last) {
-      if (ended()) return;
-      Task task{*this, kind, stats, {}, {}, {}};
-      if (stride_ == 1)
-        pairs_.traverse(kind, from + first, from + last, task.sink());
-      else
-        for (std::size_t i = from + first; i < from + last; ++i)
-          pairs_.traverse(kind, i * stride_, i * stride_ + 1, task.sink());
-      merge(task);
-      if (budget_.outcome() == Outcome::free) budget_.advance(last - first);
-    });
+  void run_task(PairKind kind, std::size_t first, std::size_t last, NarrowPhaseStats& stats) {
+    if (ended()) return;
+    Task task{*this, kind, stats, {}, {}, {}};
+    if (stride_ == 1)
+      pairs_.traverse(kind, first, last, task.sink());
+    else
+      for (std::size_t i = first; i < last; ++i)
+        pairs_.traverse(kind, i * stride_, i * stride_ + 1, task.sink());
+    merge(task);
+    if (budget_.outcome() == Outcome::free) budget_.advance(last - first);
   }
 
   bool ended() const {
@@ -235,9 +255,7 @@ TraversalResult traverse_pairs(const PairSource& pairs, const NarrowPhase& narro
                                const TraversalBounds& bounds) {
   TraversalResult result;
   PairTraversal traversal(pairs, narrow, collect, t_max, budget, stride, bounds);
-  traversal.run(PairKind::vertex_face, result.vertex_face);
-  traversal.run(PairKind::edge_edge, result.edge_edge);
-  traversal.run(PairKind::vertex_edge, result.vertex_edge);
+  traversal.run(result);
   if (collect == Collect::all)
     result.found = traversal.take();
   else

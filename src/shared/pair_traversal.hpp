@@ -53,6 +53,9 @@ struct TraversalResult {
            : kind == PairKind::edge_edge ? edge_edge
                                          : vertex_edge;
   }
+  NarrowPhaseStats& of(PairKind kind) {
+    return const_cast<NarrowPhaseStats&>(static_cast<const TraversalResult&>(*this).of(kind));
+  }
 };
 
 // What else bounds a traversal.
