@@ -13,7 +13,7 @@ struct Checks {
   long calls = 0, different = 0;
 };
 
-// (c) Asks all calls of a scene, cut in one way, and counts on rank 0 which differ; says so on stderr.
-void check_scene(MPI_Comm comm, const WholeScene& scene, Cut cut, unsigned seed, Checks& checks);
+// (c) Asks all calls of a scene, cut in every way, and counts on rank 0 which differ; says so on stderr.
+void check_scene(MPI_Comm comm, const WholeScene& scene, unsigned seed, Checks& checks);
 
 }  // namespace onset::tests
