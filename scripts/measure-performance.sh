@@ -1,9 +1,9 @@
 #!/bin/sh
-# Measures speed and memory and writes the tables of docs/performance.md again.
+# Measures speed and memory and writes the tables of docs/performance.md and docs/scaling.md again.
 #   measure-performance.sh [quick] [PART ...]     parts: ipctk, candidates, peers, threads, size, huge, profile, memory,
-#                                                 traffic; default: all
-# quick: one small scene, few repeats, to try the script; writes build/performance-quick/performance.md instead.
-# Needs ONSET_DATA, the folder of the real data. About 16 minutes on 2 cores and 16 GiB; nothing else should run meanwhile.
+#                                                 traffic, serial; default: all
+# quick: one small scene, few repeats, to try the script; writes into build/performance-quick/ instead.
+# Needs ONSET_DATA, the folder of the real data. About half an hour on 2 cores and 16 GiB; nothing else should run meanwhile.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build="${ONSET_BUILD:-$root/build}"
@@ -12,16 +12,16 @@ out="$build/performance"
 bench="$root/apps/bench/scripts"
 : "${ONSET_DATA:?the folder that holds scenes/}"
 
-document="$root/docs/performance.md"
+documents="$root/docs"
 repeats=3 rounds=15 every=60 largest=10000000 refine=4 seconds=4 limit=40 memory=10 factor=10 rounds_of_peers=15 mib=256 scenes='*'
 if [ "${1:-}" = quick ]; then
   shift
   out="$build/performance-quick"
   repeats=1 rounds=2 every=600 largest=10000 refine=1 seconds=1 limit=2 memory=1 factor=0.1 rounds_of_peers=1 mib=16 scenes='cloth-funnel'
-  mkdir -p "$out" && cp "$document" "$out/performance.md"
-  document="$out/performance.md"
+  mkdir -p "$out" && cp "$documents/performance.md" "$documents/scaling.md" "$out"
+  documents=$out
 fi
-[ $# -gt 0 ] || { rm -f "$out/load"; set -- ipctk candidates peers threads size huge profile memory traffic; }
+[ $# -gt 0 ] || { rm -f "$out/load"; set -- ipctk candidates peers threads size huge profile memory traffic serial; }
 
 "$root/scripts/install-packages.sh" library apps peers
 { command -v perf && command -v valgrind; } >/dev/null || "$root/scripts/install-packages.sh" profile
@@ -78,6 +78,8 @@ measure() {  # part, scenes
     traffic)
       copied=$(awk -F '|' '$2 == " 1 " { print $3 }' "$out/memory.md")
       python memory_traffic.py --server "$server" --copied "$copied" "$@" ;;
+    serial)
+      python serial_share.py --server "$server" "$@" ;;
     *)
       echo "measure-performance.sh: no part '$part'" >&2
       exit 2 ;;
@@ -96,5 +98,7 @@ machine=$("$build/apps/bench/onset_baselines" | python3 -c 'import json, sys; pr
 loads=$(awk '{ printf "%s%s %s", sep, $1, $2; sep = ", " }' "$out/load")
 echo "Machine: $machine. Load average before each part: $loads." >"$out/machine.md"
 
-python fill_measured.py "$document" "$out"
-echo "$(date +%T) $document" >&2
+for document in performance scaling; do
+  python fill_measured.py "$documents/$document.md" "$out"
+done
+echo "$(date +%T) $documents" >&2
