@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -23,27 +24,31 @@ class BucketSort {
   bool run() {
     choose_borders();
     const std::size_t buckets = borders_.size() + 1;
-    std::vector<std::size_t> start(pieces_ * buckets + 1);
-    if (!each_piece([&](std::size_t piece) {
-          return each_of(piece, [&](std::size_t i) { ++start[bucket(i) * pieces_ + piece]; });
+    std::vector<std::vector<std::size_t>> place(pieces_);  // where a piece puts the next of a bucket
+    if (!each(pieces_, [&](std::size_t piece) {
+          std::vector<std::size_t> n(buckets);
+          const bool all = each_of(piece, [&](std::size_t i) { ++n[bucket(i)]; });
+          place[piece] = std::move(n);
+          return all;
         }))
       return false;
-    std::size_t sum = 0;
-    for (std::size_t& n : start) {
-      const std::size_t here = n;
-      n = sum, sum += here;
-    }
-    std::vector<std::size_t> first(buckets + 1, count_);
-    for (std::size_t b = 0; b < buckets; ++b) first[b] = start[b * pieces_];
-    if (!each_piece([&](std::size_t piece) {
-          return each_of(piece,
-                         [&](std::size_t i) { scratch_[start[bucket(i) * pieces_ + piece]++] = items_[i]; });
-        }))
-      return false;
-    return each(buckets, [&](std::size_t b) { return sort(first[b], first[b + 1]); });
+    std::vector<std::size_t> first{0};
+    for (std::size_t b = 0, sum = 0; b < buckets; first.push_back(sum), ++b)
+      for (std::vector<std::size_t>& of_piece : place) {
+        const std::size_t here = of_piece[b];
+        of_piece[b] = sum, sum += here;
+      }
+    return each(pieces_,
+                [&](std::size_t piece) {
+                  std::vector<std::size_t> to = std::move(place[piece]);
+                  return each_of(piece, [&](std::size_t i) { scratch_[to[bucket(i)]++] = items_[i]; });
+                }) &&
+           each(buckets, [&](std::size_t b) { return sort(first[b], first[b + 1]); });
   }
 
  private:
+  static constexpr std::size_t kFew = 2000;  // so few are sorted faster by comparing
+
   // Four buckets a piece, so that threads that are done early help on.
   void choose_borders() {
     constexpr std::size_t kBucketsAPiece = 4, kSamplesABucket = 16;
@@ -59,8 +64,12 @@ class BucketSort {
   }
 
   bool sort(std::size_t first, std::size_t last) {
-    return radix_sort(scratch_ + first, items_ + first, last - first, key_, stop_) &&
-           each_unless(stop_, first, last, [&](std::size_t i) { items_[i] = scratch_[i]; });
+    T* const from = scratch_ + first;
+    if (last - first < kFew)
+      std::sort(from, from + (last - first), [&](const T& x, const T& y) { return key_(x) < key_(y); });
+    else if (!radix_sort(from, items_ + first, last - first, key_, stop_))
+      return false;
+    return each_unless(stop_, first, last, [&](std::size_t i) { items_[i] = scratch_[i]; });
   }
 
   // f(i) for i < count in parallel; false where one of them returned that.
@@ -72,10 +81,6 @@ class BucketSort {
         if (!f(i)) all = false;
     });
     return all;
-  }
-  template <class F>
-  bool each_piece(const F& f) const {
-    return each(pieces_, f);
   }
   template <class F>
   bool each_of(std::size_t piece, F&& f) const {
@@ -90,8 +95,8 @@ class BucketSort {
   std::vector<std::uint64_t> borders_;
 };
 
-// As radix_sort, by all threads of the arena where there is enough for them. The result is the same: it is
-// stable, too.
+// As radix_sort, by all threads of the arena where there is enough for them, of items of which no two share a
+// key.
 template <class T, class Key>
 bool parallel_radix_sort(T* items, T* scratch, std::size_t count, const Key& key, const Stop& stop = {}) {
   const std::size_t pieces = sort_pieces(count);

@@ -73,7 +73,7 @@ class HeldCandidates {
   std::array<std::vector<int>, 2> vertices_;
   std::array<AlignedArray<float>, 2> records_;
   std::optional<BroadPhaseInput> input_;
-  std::optional<FloatMap> map_;  // what is covered is about where it was
+  std::optional<FloatMap> map_;  // of the positions then: those that are covered are near them
   int rounded_axes_ = 0;
   bool linear_ = false;
   mutable FreeList<TraversalMemory> memory_;

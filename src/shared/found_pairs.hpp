@@ -176,7 +176,8 @@ class FoundPairs {
 
   // Sorts sixteen bytes a pair and moves each result once. Returns false where it was stopped.
   bool sort_into(std::vector<FoundPair>& out, const Stop& stop) const {
-    const std::unique_ptr<Place[]> places(new Place[held_]), scratch(new Place[held_]);
+    const std::unique_ptr<Place[]> places(new Place[held_]);
+    std::unique_ptr<Place[]> scratch(new Place[held_]);
     if (!list_places(places.get(), stop)) return false;
     if (held_ < kFew)
       std::sort(places.get(), places.get() + held_,
@@ -184,6 +185,7 @@ class FoundPairs {
     else if (!parallel_radix_sort(
                  places.get(), scratch.get(), held_, [](const Place& p) { return p.order; }, stop))
       return false;
+    scratch.reset();
     out.reserve(held_);
     const auto found = [&](std::size_t i) {
       return FoundPair{kind_of_order(places[i].order), *places[i].result};

@@ -13,8 +13,11 @@
 namespace onset {
 namespace {
 
-// Few enough for many threads to share a small scene.
-constexpr std::size_t kBlocksATask = 4;
+// Few where a scene is small, so that many threads can share it.
+constexpr std::size_t kLeastBlocksATask = 4, kMostBlocksATask = 16, kTasks = 256;
+std::size_t blocks_a_task(std::size_t blocks) {
+  return std::clamp(blocks / kTasks, kLeastBlocksATask, kMostBlocksATask);
+}
 
 // With a budget of checks, work comes in waves of so many blocks. What a wave does depends only on those
 // before it, so that it is the same for any number of threads.
@@ -56,7 +59,7 @@ class PairTraversal {
   void run_all(TraversalResult& result) {
     std::size_t blocks = 0;
     for (const PairKind kind : kStepKinds) blocks += count(kind);
-    parallel_ranges(blocks, kBlocksATask, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(blocks, blocks_a_task(blocks), [&](std::size_t first, std::size_t last) {
       std::size_t begin = 0;  // of a kind
       for (const PairKind kind : kStepKinds) {
         const std::size_t end = begin + count(kind);
@@ -75,7 +78,7 @@ class PairTraversal {
       wave_t_max_ = t_max_.load(std::memory_order_relaxed);
       const std::size_t last = std::min(first + wave, blocks);
       const std::int64_t before = stats.checks;
-      parallel_ranges(last - first, kBlocksATask, [&](std::size_t from, std::size_t to) {
+      parallel_ranges(last - first, kMostBlocksATask, [&](std::size_t from, std::size_t to) {
         run_task(kind, first + from, first + to, stats);
       });
       budget_.add_checks(stats.checks - before);

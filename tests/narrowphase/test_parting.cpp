@@ -109,7 +109,7 @@ TEST_CASE("what is plainly pressed on has no direction that parts it", "[propert
   }
 }
 
-// Flat up to rounding, so that an area or a determinant is computed as 0, and not flat exactly.
+// Flat up to rounding, so that a determinant is computed as 0, and not flat exactly.
 TEST_CASE("of pairs that are flat up to rounding nothing is plain") {
   const double tiny = 1e-12;
   const std::array<Point, 4> edges{{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {1.5, tiny, 0}}};
