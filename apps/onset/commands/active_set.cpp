@@ -20,15 +20,6 @@ bool starts_in_contact(const onset::ActiveSet& set) {
   });
 }
 
-std::string summary(const onset::ActiveSet& set) {
-  std::string text = format("outcome     %s\ncontacts    %s\n", outcome_name(set.outcome),
-                            describe(set.stats.contacts).c_str());
-  if (set.vertex >= 0) text += format("vertex      %d\n", set.vertex);
-  if (const onset::Contact* first = set.earliest())
-    text += format("earliest    t = %.17g, %s\n", first->toi, describe(*first).c_str());
-  return text + describe_stats(set.stats);
-}
-
 }  // namespace
 
 void add_active_set(CLI::App& app, Run& run) {
@@ -36,19 +27,14 @@ void add_active_set(CLI::App& app, Run& run) {
   std::shared_ptr<Arguments> arguments;
   CLI::App* command = add_scene_command(
       app, run, "active-set", "Every pair that comes into contact between A and B, with its time of impact",
-      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_limit "
-      "(vf: vertex and face; ee: "
-      "edges in the order of igl::edges; ve: vertex and edge, with --dim 2; vp: vertex and plane; w: weights "
-      "of the vertices at "
-      "the contact point; n: unit normal; "
-      "speed < 0 closes)",
+      std::string(kActiveSetColumns) + " " + kActiveSetHelp,
       [files](const Scene& scene, const onset::Options& options, Outputs& outputs) {
         announce(*files, scene, outputs);
         const onset::ActiveSet set = compute(scene, options);
         if (set.vertex < 0) note_start(scene, options, starts_in_contact(set), outputs);
         if (outputs.csv()) write_active_set_csv(*outputs.csv(), set);
         write_files(*files, scene, options, set, outputs);
-        outputs.finish(active_set_json(set), describe_sizes(scene.mesh) + summary(set));
+        outputs.finish(active_set_json(set), describe_sizes(scene.mesh) + describe_active_set(set));
       },
       &arguments);
   add_window(*command, *arguments);

@@ -140,9 +140,7 @@ Json active_set_json(const onset::ActiveSet& set) {
 }
 
 void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
-  csv.write(
-      "kind,a,b,toi,v0,v1,v2,v3,status,certain,toi_hi,w0,w1,w2,w3,nx,ny,nz,gap,speed,degenerate,step_"
-      "limit\n");
+  csv.write(std::string(kActiveSetColumns) + "\n");
   for (const onset::Contact& c : set) {
     const auto& v = c.vertices;
     csv.write(format("%s,%d,%d,%.17g,%d,%d,%d,%d,%s,%s,%.17g", kind_name(c.kind), c.a, c.b, c.toi, v[0], v[1],
@@ -153,6 +151,17 @@ void write_active_set_csv(Output& csv, const onset::ActiveSet& set) {
       csv.write(format(",%.17g", x));
     csv.write(format(",%d,%.17g\n", int(c.degenerate), c.step_limit));
   }
+}
+
+void write_step_csv(Output& csv, const onset::StepResult& r) {
+  csv.write(std::string(kStepColumns) + "\n");
+  csv.write(format("%s,%.17g,", outcome_name(r.outcome), r.step));
+  if (const std::optional<onset::Pair>& p = r.limiting)
+    csv.write(format("%s,%d,%d,%d,%d,%d,%d", kind_name(p->kind), p->a, p->b, p->vertices[0], p->vertices[1],
+                     p->vertices[2], p->vertices[3]));
+  else
+    csv.write(",,,,,,");
+  csv.write(format(",%.17g,%.17g,%.17g\n", r.toi, r.toi_hi, r.rounding));
 }
 
 // A point is an edge whose two vertices are the same.
@@ -212,6 +221,15 @@ std::string describe_sizes(const onset::Mesh& mesh) {
   if (points > 0)
     text.insert(text.size() - 1, format(", %td points (edges of length 0 behind all others)", points));
   return text;
+}
+
+std::string describe_active_set(const onset::ActiveSet& set) {
+  std::string text = format("outcome     %s\ncontacts    %s\n", outcome_name(set.outcome),
+                            describe(set.stats.contacts).c_str());
+  if (set.vertex >= 0) text += format("vertex      %d\n", set.vertex);
+  if (const onset::Contact* first = set.earliest())
+    text += format("earliest    t = %.17g, %s\n", first->toi, describe(*first).c_str());
+  return text + describe_stats(set.stats);
 }
 
 std::string describe_stats(const onset::Stats& s) {
