@@ -66,7 +66,8 @@ void check_vertex_ids(const std::vector<int>& ids, std::int64_t vertices) {
   for (std::size_t r = 0; r < ids.size(); ++r)
     if (ids[r] < 0 || ids[r] >= vertices)
       reject("vertex_ids row " + std::to_string(r) + ": " + std::to_string(ids[r]) +
-             " is out of range, the ranks own " + std::to_string(vertices) + " vertices");
+             " is out of range, the ranks own " + std::to_string(vertices) +
+             " vertices, with ids from 0 on (is there one that no rank owns?)");
 }
 
 std::vector<Element<2>> points_of(const MeshPart& part) {
@@ -180,7 +181,7 @@ Mesh::Mesh(MPI_Comm comm, const MeshPart& part) : impl_(make_impl<Impl>(comm)) {
     check_part(part);
     owned.assign(part.vertex_ids.begin(), part.vertex_ids.begin() + part.owned);
   });
-  m.comm.require_same("the dimensions of the mesh", std::uint64_t(part.dimension));
+  m.comm.require_same({{"dimension", std::uint64_t(part.dimension)}});
   m.dimension = part.dimension;
   m.rows = std::ptrdiff_t(part.vertex_ids.size()), m.owned = part.owned;
   const VertexOwners owners(m.comm, owned);

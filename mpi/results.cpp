@@ -22,16 +22,23 @@ std::uint64_t bits(double x) {
   return r;
 }
 
-// Of what must be the same on all ranks.
-std::uint64_t hash_of(const char* name, const Options& o, std::initializer_list<double> numbers) {
-  std::uint64_t hash = 1;
-  for (; *name != '\0'; ++name) hash = mix(hash, std::uint64_t(*name));
-  for (const double x : {o.tolerance.value_or(-1), o.relative_tolerance, o.min_separation, o.window})
-    hash = mix(hash, bits(x));
-  for (const double x : numbers) hash = mix(hash, bits(x));
-  for (const int x : {int(o.norm), int(o.exactness), int(o.touching_may_pass_through), int(o.narrow_phase)})
-    hash = mix(hash, std::uint64_t(x));
-  return mix(hash, std::uint64_t(o.max_checks));
+// (c)
+void require_same(const Communicator& comm, const char* name, const Options& o,
+                  std::initializer_list<double> numbers) {
+  std::uint64_t call = 1, arguments = 1;
+  for (; *name != '\0'; ++name) call = mix(call, std::uint64_t(*name));
+  for (const double x : numbers) arguments = mix(arguments, bits(x));
+  comm.require_same({{"the call that is made", call},
+                     {"tolerance", bits(o.tolerance.value_or(-1))},
+                     {"relative_tolerance", bits(o.relative_tolerance)},
+                     {"min_separation", bits(o.min_separation)},
+                     {"window", bits(o.window)},
+                     {"norm", std::uint64_t(o.norm)},
+                     {"exactness", std::uint64_t(o.exactness)},
+                     {"touching_may_pass_through", std::uint64_t(o.touching_may_pass_through)},
+                     {"narrow_phase", std::uint64_t(o.narrow_phase)},
+                     {"max_checks", std::uint64_t(o.max_checks)},
+                     {"d_hat, or another number that the call takes,", arguments}});
 }
 
 std::optional<FoundPair> found(const SceneLimits::Limit& limit) {
@@ -77,7 +84,7 @@ void begin_call(const Mesh::Impl& m, const char* name, const Options& options,
     if (options.check_limit < std::numeric_limits<std::int64_t>::max())
       throw std::invalid_argument("check_limit is not offered over ranks");
   });
-  m.comm.require_same("the call and its options", hash_of(name, options, numbers));
+  require_same(m.comm, name, options, numbers);
 }
 
 void end_call(const Mesh::Impl& m, std::int64_t pairs) {

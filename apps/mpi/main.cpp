@@ -95,32 +95,34 @@ void run(const Inputs& inputs, bool active_set) {
   Json json;
   std::string summary = describe_sizes(scene.mesh);
   onset::mpi::ActiveSet set;
+  onset::StepResult step;
   if (active_set) {
     set = onset::mpi::construct_active_set(*part.mesh, part.x_t0, part.x_t1, options);
     gather(set);
     json = active_set_json(set);
-    summary += format("active set: %zu pairs\n", set.size()) + describe_stats(set.stats);
+    summary += describe_active_set(set);
   } else {
-    const auto r = onset::mpi::compute_collision_free_stepsize(*part.mesh, part.x_t0, part.x_t1, options);
-    json = step_json(r);
-    summary += describe_step(r) + describe_stats(r.stats);
+    step = onset::mpi::compute_collision_free_stepsize(*part.mesh, part.x_t0, part.x_t1, options);
+    json = step_json(step);
+    summary += describe_step(step) + describe_stats(step.stats);
   }
   summary += describe_exchange(*part.mesh);
   if (rank_of_process() != 0) return;
   Outputs outputs(inputs, {inputs.a, inputs.b, inputs.rest});
   for (const std::string& note : scene.notes) outputs.note(note);
-  if (outputs.csv() && active_set) write_active_set_csv(*outputs.csv(), set);
+  if (outputs.csv())
+    active_set ? write_active_set_csv(*outputs.csv(), set) : write_step_csv(*outputs.csv(), step);
   outputs.finish(json, summary);
 }
 
-CLI::App* add(CLI::App& app, Inputs& inputs, const char* name, const char* help) {
+CLI::App* add(CLI::App& app, Inputs& inputs, const char* name, const char* help, const char* columns) {
   CLI::App* command = app.add_subcommand(name, help);
   command->add_option("A", inputs.a, kMeshHelp)->required()->check(path_fault);
   command->add_option("B", inputs.b, kEndHelp)->required()->check(path_fault);
   command->add_option("--partition", inputs.partition, "How vertices are spread: rcb, random or blocks")
       ->check(CLI::IsMember({"rcb", "random", "blocks"}))
       ->capture_default_str();
-  add_common_options(*command, inputs, "");
+  add_common_options(*command, inputs, columns);
   add_body_options(*command, inputs);
   return command;
 }
@@ -135,9 +137,9 @@ int main_of_rank(int argc, char** argv) {
   CLI::App app("The steps and active sets of onset, over ranks: mpirun -n 4 onset_mpi step A B");
   app.require_subcommand(1);
   Inputs step, set;
-  CLI::App* steps =
-      add(app, step, "step", "The largest step from A towards B that is certainly free of contact");
-  add(app, set, "active-set", "The pairs that come into contact");
+  CLI::App* steps = add(app, step, "step",
+                        "The largest step from A towards B that is certainly free of contact", kStepColumns);
+  add(app, set, "active-set", "The pairs that come into contact", kActiveSetColumns);
   try {
     app.parse(argc, argv);
     if (steps->parsed())

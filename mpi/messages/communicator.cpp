@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/assert.hpp"
+
 namespace onset::mpi {
 namespace {
 
@@ -75,11 +77,16 @@ void Communicator::agree(const Failure& mine) const {
   raise(failure, first);
 }
 
-void Communicator::require_same(const char* what, std::uint64_t value) const {
-  std::uint64_t least[2] = {value, ~value};
-  MPI_Allreduce(MPI_IN_PLACE, least, 2, MPI_UINT64_T, MPI_MIN, comm_);
-  if (least[0] != ~least[1])
-    throw std::invalid_argument(std::string(what) + " are not the same on all ranks");
+void Communicator::require_same(std::initializer_list<Named> values) const {
+  ONSET_ASSERT(values.size() <= kMostNamed);
+  std::uint64_t least[2 * kMostNamed], *next = least;
+  for (const Named& of : values) *next++ = of.value, *next++ = ~of.value;
+  MPI_Allreduce(MPI_IN_PLACE, least, int(next - least), MPI_UINT64_T, MPI_MIN, comm_);
+  next = least;
+  for (const Named& of : values) {
+    const std::uint64_t smallest = *next++, largest = ~*next++;
+    if (smallest != largest) throw std::invalid_argument(std::string(of.name) + " differs from rank to rank");
+  }
 }
 
 void Communicator::sum(std::int64_t* values, int count) const {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -50,8 +51,14 @@ class Communicator {
     }
     agree(failure);
   }
-  // (c) Throws std::invalid_argument on all ranks unless all have the same value. `what` names it.
-  void require_same(const char* what, std::uint64_t value) const;
+  // (c) Throws std::invalid_argument on all ranks unless all have the same values, naming the first that
+  // differs. One message; nothing is allocated.
+  struct Named {
+    const char* name;
+    std::uint64_t value;
+  };
+  static constexpr std::size_t kMostNamed = 16;
+  void require_same(std::initializer_list<Named> values) const;
 
   // (c) In place.
   void sum(std::int64_t* values, int count) const;

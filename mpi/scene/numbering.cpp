@@ -38,7 +38,8 @@ PerRank<int> by_directory(const Communicator& comm, const Directory& directory, 
   for (const int id : ids) {
     if (id < 0 || id >= vertices)
       throw std::invalid_argument("vertex id " + std::to_string(id) + " is out of range, the ranks own " +
-                                  std::to_string(vertices) + " vertices");
+                                  std::to_string(vertices) +
+                                  " vertices, with ids from 0 on (is there one that no rank owns?)");
     out[directory.rank_of(id)].push_back(id);
   }
   return out;
@@ -109,8 +110,8 @@ std::int64_t keep_owned(const Communicator& comm, const char* what, std::vector<
   comm.sum(&given, 1);
   if (count > given)  // before anything is made that is as large as the largest id
     throw std::invalid_argument(std::string(what) + " id " + std::to_string(count - 1) +
-                                " is given, but the ranks give " + std::to_string(given) +
-                                " in all, and ids have no gaps");
+                                " is given, but the ranks give only " + std::to_string(given) +
+                                " rows together, and ids have no gaps");
   const Directory directory(comm, count);
   PerRank<Element<N>> out;
   const auto row = [&](int id) { return std::string(what) + " id " + std::to_string(id); };
@@ -135,8 +136,8 @@ std::int64_t keep_owned(const Communicator& comm, const char* what, std::vector<
         is_owner[r].push_back(known == nullptr);
         if (known == nullptr) known = &e;
         if (known->vertices != e.vertices)
-          throw std::invalid_argument(row(e.id) + " has other vertices on rank " + std::to_string(r) +
-                                      " than on a lower one");
+          throw std::invalid_argument(row(e.id) + " has other vertices, or another order of them, on rank " +
+                                      std::to_string(r) + " than on a lower one");
       }
     for (std::size_t i = 0; i < first.size(); ++i)
       if (first[i] == nullptr)

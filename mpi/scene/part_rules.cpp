@@ -42,21 +42,46 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-std::uint64_t hash_of(const CollisionRules& r) {
+template <class Rows, class AddRow>
+std::uint64_t hash_of(const Rows& rows, const AddRow& add) {
   Hash hash;
-  hash.add(r.weld), hash.add(r.rest_share), hash.add(r.excluded_rings);
-  hash.add_all(r.rigid_bodies), hash.add_all(r.bodies_without_self_collision);
-  hash.add_all(r.excluded_bodies), hash.add_all(r.excluded_vertices);
-  hash.add(r.body_separations.size());
-  for (const BodySeparation& s : r.body_separations)
-    hash.add(s.body_a), hash.add(s.body_b), hash.add(s.separation);
-  hash.add(r.planes.size());
-  for (const Plane& p : r.planes) hash.add(p.normal), hash.add(p.offset), hash.add(p.group), hash.add(p.mask);
-  hash.add(r.excluded_pairs.size());
-  for (const Pair& p : r.excluded_pairs) hash.add(p.kind), hash.add(p.a), hash.add(p.b);
-  hash.add(r.excluded_intersections.size());
-  for (const Intersection& p : r.excluded_intersections) hash.add(p.edge), hash.add(p.face);
+  hash.add(rows.size());
+  for (const auto& row : rows) add(hash, row);
   return hash.value();
+}
+template <class Rows>
+std::uint64_t hash_of(const Rows& rows) {
+  Hash hash;
+  hash.add_all(rows);
+  return hash.value();
+}
+
+// (c) Of the rules of the scene.
+void require_same(const Communicator& comm, const CollisionRules& r) {
+  Hash rest_share;
+  rest_share.add(r.rest_share);
+  comm.require_same(
+      {{"rule weld", std::uint64_t(r.weld)},
+       {"rule rest_share", rest_share.value()},
+       {"rule excluded_rings", std::uint64_t(r.excluded_rings)},
+       {"rule rigid_bodies", hash_of(r.rigid_bodies)},
+       {"rule bodies_without_self_collision", hash_of(r.bodies_without_self_collision)},
+       {"rule excluded_bodies", hash_of(r.excluded_bodies)},
+       {"rule excluded_vertices", hash_of(r.excluded_vertices)},
+       {"rule body_separations", hash_of(r.body_separations,
+                                         [](Hash& hash, const BodySeparation& s) {
+                                           hash.add(s.body_a), hash.add(s.body_b), hash.add(s.separation);
+                                         })},
+       {"rule planes", hash_of(r.planes,
+                               [](Hash& hash, const Plane& p) {
+                                 hash.add(p.normal), hash.add(p.offset), hash.add(p.group), hash.add(p.mask);
+                               })},
+       {"rule excluded_pairs",
+        hash_of(r.excluded_pairs,
+                [](Hash& hash, const Pair& p) { hash.add(p.kind), hash.add(p.a), hash.add(p.b); })},
+       {"rule excluded_intersections",
+        hash_of(r.excluded_intersections,
+                [](Hash& hash, const Intersection& p) { hash.add(p.edge), hash.add(p.face); })}});
 }
 
 // (c) Of a rule with a value for each row: whether there is one, which all ranks with rows must agree on.
@@ -138,13 +163,15 @@ void check_one_body(const char* what, const std::vector<Element<N>>& elements, c
 }
 
 void check_vertices(const Mesh::Impl& m) {
-  for (const double t : m.thickness)
-    if (!(t >= 0 && t <= 0x1p1020))
-      throw std::invalid_argument("a thickness is " + std::to_string(t) +
+  const auto vertex = [&](std::size_t slot) { return " of vertex " + std::to_string(m.id[slot]); };
+  for (std::size_t s = 0; s < m.thickness.size(); ++s)
+    if (const double t = m.thickness[s]; !(t >= 0 && t <= 0x1p1020))
+      throw std::invalid_argument("thickness" + vertex(s) + " is " + std::to_string(t) +
                                   "; it must be >= 0, at most 2^1020");
-  for (const int b : m.body)
-    if (b < 0 || b == std::numeric_limits<int>::max())
-      throw std::invalid_argument("body " + std::to_string(b) + " is not in [0, 2^31 - 1)");
+  for (std::size_t s = 0; s < m.body.size(); ++s)
+    if (const int b = m.body[s]; b < 0 || b == std::numeric_limits<int>::max())
+      throw std::invalid_argument("body" + vertex(s) + " is " + std::to_string(b) +
+                                  ", which is not in [0, 2^31 - 1)");
   if (m.group.empty() != m.mask.empty()) throw std::invalid_argument("groups and masks are not both given");
   check_one_body("edge", m.own_edges, m), check_one_body("face", m.own_faces, m);
 }
@@ -153,7 +180,7 @@ void check_vertices(const Mesh::Impl& m) {
 
 void take_rules(const MeshPart& part, Mesh::Impl& m) {
   const CollisionRules& rules = part.rules;
-  m.comm.require_same("the rules of the scene", hash_of(rules));
+  require_same(m.comm, rules);
   take("thickness", rules.thickness, m, m.thickness);
   take("bodies", rules.bodies, m, m.body);
   take("groups", rules.groups, m, m.group);

@@ -51,7 +51,7 @@ struct Exchange {
 
 // Functions marked (c), among them the constructor, are collective: all ranks of the communicator call them,
 // in the same order, with the same options. They fail together: what is thrown on one rank is thrown on all,
-// with the number of the lowest rank that failed in its text.
+// with the number of the lowest rank in its text where it was one that failed.
 //
 // Immutable. Calls on one mesh are made by one thread at a time, the one that MPI lets make calls.
 class ONSET_API Mesh {
