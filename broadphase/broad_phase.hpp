@@ -18,6 +18,14 @@ namespace onset {
 // Which of the pairs a call will look at: all, all up to the earliest contact, or until there is one.
 enum class Looks { at_all, at_earliest, at_any };
 
+// Whether pairs that pass the test of boxes are put to that of broadphase/diagonals.hpp, too, and by how much
+// more than their inflations they then have to be apart, in which norm, to be dropped.
+struct DiagonalTest {
+  bool used = false;
+  Norm norm = Norm::euclidean;
+  double margin = 0;
+};
+
 // What a broad phase is made from.
 struct BroadPhaseInput {
   const MeshData& mesh;
@@ -35,6 +43,8 @@ struct BroadPhaseInput {
   Looks looks = Looks::at_any;
   // The most pairs that may be held for later calls (broadphase/held/).
   std::size_t most_held = 0;
+  // Never with the swept test.
+  DiagonalTest diagonals = {};
 };
 
 inline std::vector<PairKind> wanted_kinds(const BroadPhaseInput& input) {

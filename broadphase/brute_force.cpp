@@ -1,8 +1,10 @@
 #include "broadphase/brute_force.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
+#include "broadphase/diagonals.hpp"
 #include "broadphase/motion_box.hpp"
 #include "scene/pair_source.hpp"
 
@@ -20,7 +22,7 @@ class BruteForce final : public BroadPhase {
   const char* name() const override { return "brute"; }
 
   void refit(const BroadPhaseInput& input, const Stop& stop) override {
-    test_ = input.test;
+    input_.emplace(input);
     kinds_ = wanted_kinds(input);
     finite_ = input.motion.status == Outcome::free;
     ready_ = false;
@@ -43,7 +45,9 @@ class BruteForce final : public BroadPhase {
       for (std::size_t j = kind == PairKind::edge_edge ? i + 1 : 0; j < B.ids.size();) {
         if (sink.stop.requested()) return;
         for (const std::size_t end = std::min(j + kTestsALook, B.ids.size()); j < end; ++j)
-          if (boxes_overlap(test_, A.boxes[i], B.boxes[j]) && may_meet(mesh_, kind, A.ids[i], B.ids[j]))
+          if (boxes_overlap(input_->test, A.boxes[i], B.boxes[j]) &&
+              may_meet(mesh_, kind, A.ids[i], B.ids[j]) &&
+              !(input_->diagonals.used && diagonals_apart(*input_, kind, {A.ids[i], B.ids[j]})))
             batch.add(A.ids[i], B.ids[j]);
       }
     batch.flush();
@@ -53,7 +57,7 @@ class BruteForce final : public BroadPhase {
   const MotionBoxes& boxes(Primitive kind) const { return boxes_[std::size_t(kind)]; }
 
   const MeshData& mesh_;
-  BoxTest test_ = BoxTest::both_ends;
+  std::optional<BroadPhaseInput> input_;
   bool finite_ = true;
   std::vector<PairKind> kinds_;
   std::array<MotionBoxes, 3> boxes_;

@@ -46,6 +46,11 @@ bool moving_boxes_apart(const MotionBox& a, const MotionBox& b) {
   return begin * (1 - kSlack) > end * (1 + kSlack) + kLeast;
 }
 
+inline double inflation_of(const BroadPhaseInput& input, Primitive kind, int id) {
+  if (part_inflation(input, true) == input.inflation) return input.inflation;
+  return part_inflation(input, is_static(input.mesh, kind, id));
+}
+
 double widest(const BroadPhaseInput& input, Primitive kind, int id, double inflation) {
   const std::vector<double>& thickness = input.mesh.thickness;
   if (thickness.empty()) return inflation;
@@ -57,9 +62,12 @@ double widest(const BroadPhaseInput& input, Primitive kind, int id, double infla
 
 }  // namespace
 
+double widened_by(const BroadPhaseInput& input, Primitive kind, int id) {
+  return widest(input, kind, id, inflation_of(input, kind, id));
+}
+
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id) {
-  const bool alike = part_inflation(input, true) == input.inflation;
-  return motion_box(input, kind, id, part_inflation(input, !alike && is_static(input.mesh, kind, id)));
+  return motion_box(input, kind, id, inflation_of(input, kind, id));
 }
 
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, double inflation) {
@@ -107,8 +115,13 @@ bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b) {
 }
 
 bool boxes_overlap(const BroadPhaseInput& input, PairKind kind, IdPair pair) {
-  return boxes_overlap(input.test, motion_box(input, first_primitive(kind), pair.a),
-                       motion_box(input, second_primitive(kind), pair.b));
+  const Primitive first = first_primitive(kind), second = second_primitive(kind);
+  const double a = inflation_of(input, first, pair.a), b = inflation_of(input, second, pair.b);
+  return boxes_overlap(input.test, motion_box(input, first, pair.a, a), motion_box(input, second, pair.b, b));
+}
+
+bool is_candidate(const BroadPhaseInput& input, PairKind kind, IdPair pair) {
+  return boxes_overlap(input, kind, pair) && !(input.diagonals.used && diagonals_apart(input, kind, pair));
 }
 
 }  // namespace onset

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "broadphase/broad_phase.hpp"
+#include "broadphase/diagonals.hpp"
 #include "scene/primitive_filter.hpp"
 
 namespace onset {
@@ -18,6 +19,9 @@ struct MotionBox {
 inline double part_inflation(const BroadPhaseInput& input, bool is_static) {
   return is_static && input.static_inflation >= 0 ? input.static_inflation : input.inflation;
 }
+
+// Returns that with the largest thickness of its vertices, rounded up.
+double widened_by(const BroadPhaseInput& input, Primitive kind, int id);
 
 // Makes the boxes, widened by `inflation` (else the input's) and the largest thickness of the vertices.
 MotionBox motion_box(const BroadPhaseInput& input, Primitive kind, int id, double inflation);
@@ -35,13 +39,19 @@ MotionBoxes motion_boxes(const BroadPhaseInput& input, Primitive kind, const Sto
 bool boxes_overlap(BoxTest test, const MotionBox& a, const MotionBox& b);
 // Does the same for two primitives, by input.test.
 bool boxes_overlap(const BroadPhaseInput& input, PairKind kind, IdPair pair);
-// The same for kernels, which know no more of it than a pointer.
+// Says whether two primitives pass this and the test of diagonals, where it is used.
+bool is_candidate(const BroadPhaseInput& input, PairKind kind, IdPair pair);
+// What kernels ask, which know no more of it than a pointer.
 struct OverlapDecision {
   const BroadPhaseInput& input;
   PairKind kind;
   static bool meet(const void* context, int a, int b) {
     const OverlapDecision& d = *static_cast<const OverlapDecision*>(context);
     return boxes_overlap(d.input, d.kind, {a, b});
+  }
+  static bool diagonals_apart(const void* context, int a, int b, unsigned which) {
+    const OverlapDecision& d = *static_cast<const OverlapDecision*>(context);
+    return onset::diagonals_apart(d.input, d.kind, {a, b}, which);
   }
 };
 

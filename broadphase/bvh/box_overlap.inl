@@ -107,6 +107,15 @@ inline MovingBoxes moving_boxes_apart(const Directions& directions) {
   return {certainly_apart(most), ~certainly_together(least)};
 }
 
+// The same of eight pairs of boxes, a lane each, whose supports are eight floats apart.
+inline MovingBoxes moving_boxes_apart(const float* const (&a)[kLanes], const float* const (&b)[kLanes]) {
+  return moving_boxes_apart([&](int k) {
+    const int across = opposite(k);
+    return Direction{collect(a, across * kLanes), collect(a, (6 + across) * kLanes), collect(b, k * kLanes),
+                     collect(b, (6 + k) * kLanes)};
+  });
+}
+
 }  // namespace
 }  // namespace ONSET_ISA
 }  // namespace onset

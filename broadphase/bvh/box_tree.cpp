@@ -106,6 +106,7 @@ void BoxTree::lay_out(bool motion) {
   }
   view_.ids = ids_.data();
   view_.vertices = names_.empty() ? vertices_.data() : names_.data();
+  view_.diagonals = {diagonals_ != nullptr ? diagonals_->records.data() : nullptr, vertices_.data()};
   view_.keys = keys_.empty() ? nullptr : keys_.data();
   std::size_t first = 0;
   for (int l = 0; l < view_.levels; ++l) {
@@ -115,7 +116,8 @@ void BoxTree::lay_out(bool motion) {
 }
 
 void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap& map,
-                  const Supports& vertices, const Stop& stop) {
+                  const Supports& vertices, const DiagonalRecords* diagonals, const Stop& stop) {
+  inflation_ = inflation, diagonals_ = diagonals;
   if (ids_.size() == 0 || stop.requested()) return;
   const bool motion = input.test != BoxTest::swept, own = own_supports(input, kind_);
   const BvhKernel& kernel = bvh_kernel(input.instruction_set);
@@ -179,6 +181,14 @@ Sides sides_of(PairKind kind) {
   }
 }
 
+TreePairDecision::TreePairDecision(const BroadPhaseInput& of, PairKind k, const BoxTree& query,
+                                   const BoxTree& other)
+    : OverlapDecision{of, k} {
+  if (of.diagonals.used)
+    limits =
+        diagonal_limits(of, query.inflation() + other.inflation(), *query.diagonals(), *other.diagonals());
+}
+
 TraverseArguments traverse_arguments(const BoxTree& query, const BoxTree& other,
                                      const TreePairDecision& decide, const PairSink& sink) {
   TraverseArguments arguments{};
@@ -189,7 +199,9 @@ TraverseArguments traverse_arguments(const BoxTree& query, const BoxTree& other,
   arguments.keyed = arguments.query.keys != nullptr;
   arguments.rounded_axes = query.rounded_axes() | other.rounded_axes();
   arguments.linear = query.linear() && other.linear();
+  if (decide.input.diagonals.used) arguments.diagonals = &decide.limits;
   arguments.meets = TreePairDecision::meet, arguments.excluded = TreePairDecision::excluded;
+  arguments.diagonals_apart = TreePairDecision::diagonals_apart;
   arguments.context = &decide;
   arguments.consume = sink.consume, arguments.consume_context = sink.context;
   arguments.stop = sink.stop.asked, arguments.stop_context = sink.stop.context;

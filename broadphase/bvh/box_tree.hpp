@@ -7,6 +7,7 @@
 #include "broadphase/bvh/float_boxes.hpp"
 #include "broadphase/bvh/kernel.hpp"
 #include "broadphase/bvh/vertex_order.hpp"
+#include "broadphase/diagonals/records.hpp"
 
 namespace onset {
 
@@ -34,9 +35,10 @@ class BoxTree {
           const Stop& stop = {});
 
   // Makes the boxes, widened by `inflation` and thickness. `vertices` are the supports by rank, widened
-  // alike, which suffice where there is no thickness.
+  // alike, which suffice where there is no thickness. `diagonals`, by rank, must outlive the use of the tree;
+  // null: there are none.
   void fit(const BroadPhaseInput& input, double inflation, const FloatMap& map, const Supports& vertices,
-           const Stop& stop = {});
+           const DiagonalRecords* diagonals, const Stop& stop = {});
 
   // Says whether the unions of all boxes of two fitted trees are apart.
   bool apart(const BoxTree& other, bool motion) const;
@@ -46,6 +48,9 @@ class BoxTree {
   int rounded_axes() const { return rounded_axes_; }
   // Says whether these are motion boxes through a map that was linear, but for rounding to float.
   bool linear() const { return linear_; }
+  // What the last fit was given.
+  double inflation() const { return inflation_; }
+  const DiagonalRecords* diagonals() const { return diagonals_; }
 
  private:
   std::size_t blocks() const { return ids_.size() / kBlock; }
@@ -59,14 +64,18 @@ class BoxTree {
   Primitive kind_;
   int rounded_axes_ = 0;
   bool linear_ = false;
+  double inflation_ = 0;
+  const DiagonalRecords* diagonals_ = nullptr;
   AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_ are ranks
   std::vector<int> names_, bodies_, keys_;  // names_: vertices_ as ids, empty for an `alone` tree
   AlignedArray<float> boxes_;
   TreeView view_{};
 };
 
-// What kernels ask about a pair of primitives.
+// What kernels ask about a pair of primitives, and by what they test diagonals.
 struct TreePairDecision : OverlapDecision {
+  DiagonalLimits limits{};
+  TreePairDecision(const BroadPhaseInput& input, PairKind kind, const BoxTree& query, const BoxTree& other);
   static bool excluded(const void* context, int a, int b) {
     const TreePairDecision& d = *static_cast<const TreePairDecision*>(context);
     return onset::excluded(d.input.mesh, d.kind, a, b);

@@ -80,7 +80,7 @@ class Bvh final : public BroadPhase {
 
   void traverse(PairKind kind, const Couple& couple, std::size_t first, std::size_t last,
                 const PairSink& sink, TraversalMemory& memory) const {
-    const TreePairDecision decide{{*input_, kind}};
+    const TreePairDecision decide(*input_, kind, *couple.query, *couple.other);
     TraverseArguments arguments = traverse_arguments(*couple.query, *couple.other, decide, sink);
     arguments.first = first, arguments.last = last;
     arguments.memory = &memory;
@@ -94,9 +94,15 @@ class Bvh final : public BroadPhase {
     const double inflation = part_inflation(input, false);
     const Supports vertices = make_supports(*input_, inflation, map, Primitive::vertex, order_.vertex.data(),
                                             order_.vertex.size(), stop);
+    const std::size_t count = order_.vertex.size();
+    if (input.diagonals.used)
+      diagonals_.write(*input_, input.t_max, map.linear_part(), order_.vertex.data(), count, count, false,
+                       stop);
     if (stop.requested()) return;
+    const DiagonalRecords* diagonals = input.diagonals.used ? &diagonals_ : nullptr;
     parallel_ranges(kPrimitives.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) trees_[k]->fit(*input_, inflation, map, vertices, stop);
+      for (std::size_t k = first; k < last; ++k)
+        trees_[k]->fit(*input_, inflation, map, vertices, diagonals, stop);
     });
     if (stop.requested()) return;
     for (const PairKind kind : wanted_kinds(input)) couple(kind);
@@ -126,6 +132,7 @@ class Bvh final : public BroadPhase {
   double roughness_ = 0;  // of the order, when it was made
   bool finite_ = false, made_static_ = false;
   std::optional<BroadPhaseInput> input_;
+  DiagonalRecords diagonals_;
   std::array<std::optional<BoxTree>, 3> trees_;
   std::shared_ptr<const StaticTrees> static_;
   std::array<std::vector<Couple>, kPairKinds> couples_;

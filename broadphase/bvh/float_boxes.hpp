@@ -47,6 +47,8 @@ class FloatMap {
   bool inverts(float y, double x, std::size_t axis) const {
     return double(y) * inverse_ + centre_[axis] == x && knots_[axis].empty();
   }
+  // Its linear part, wherever it is linear itself.
+  LinearMap linear_part() const { return {{centre_[0], centre_[1], centre_[2]}, scale_}; }
   // Fills in what a kernel needs to know of it; only where it is linear.
   void describe(SupportArguments& arguments) const {
     for (std::size_t a = 0; a < 4; ++a) arguments.centre[a] = centre_[a];

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "broadphase/box_test.hpp"
+#include "broadphase/diagonals/kernel.hpp"
 #include "scene/pair_sink.hpp"
 
 namespace onset {
@@ -32,6 +33,8 @@ struct TreeView {
   const int* ids;
   // Ranks or ids; a row of 8 for each vertex of a primitive, a leaf block.
   const int* vertices;
+  // Its records are null where no diagonals are tested.
+  DiagonalPlaces diagonals;
   // These are null unless keys are compared (scene/primitive_filter.hpp).
   // The PrimitiveKey::body that all of a lane shares, or 0; eight a block.
   const int* bodies[kMaxLevels];
@@ -55,7 +58,7 @@ enum class Sides { vertices_faces, edges_edges, edges_faces, vertices_edges };
 
 // What a traversal keeps its lists in: more than a thread's stack may have to spare.
 struct TraversalMemory {
-  alignas(32) unsigned char bytes[40 << 10];
+  alignas(32) unsigned char bytes[44 << 10];
 };
 
 // What makes the supports of vertices without thickness, through a linear FloatMap.
@@ -79,8 +82,11 @@ struct PairTestArguments {
   int rounded_axes;
   // Whether the boxes of both sides are BoxTree::linear.
   bool linear;
-  // Decides pairs that float cannot.
+  // Null unless diagonals are tested, too.
+  const DiagonalLimits* diagonals;
+  // Decide pairs that float cannot: about boxes, and about some of the diagonals.
   bool (*meets)(const void* context, int a, int b);
+  bool (*diagonals_apart)(const void* context, int a, int b, unsigned which);
   const void* context;
   void (*consume)(void* context, const IdPair* pairs, std::size_t count);
   void* consume_context;

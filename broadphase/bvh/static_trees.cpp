@@ -18,11 +18,15 @@ StaticTrees::StaticTrees(const BroadPhaseInput& input, double by)
       make_vertex_order(input.motion, map, {filter.static_vertices.data(), filter.static_vertices.size()});
   const Supports vertices =
       make_supports(input, by, map, Primitive::vertex, order.vertex.data(), order.vertex.size());
+  const bool motion_boxes = input.test != BoxTest::swept;
+  if (motion_boxes)  // these have not moved by any time
+    diagonals.write(input, 1, map.linear_part(), order.vertex.data(), order.vertex.size(),
+                    order.vertex.size(), false);
   for (const Primitive kind : kPrimitives) {
     const std::vector<int>& ids = filter.statics[std::size_t(kind)];
     auto& tree = trees[std::size_t(kind)];
     tree.emplace(input.mesh, kind, IdList{ids.data(), ids.size()}, order, false);
-    tree->fit(input, by, map, vertices);
+    tree->fit(input, by, map, vertices, motion_boxes ? &diagonals : nullptr);
   }
 }
 

@@ -19,6 +19,8 @@ struct StaticTrees {
   // Whether the map suited the motion that it was made for.
   bool separates;
   VertexOrder order;
+  // None for the swept test.
+  DiagonalRecords diagonals;
   std::array<std::optional<BoxTree>, 3> trees;
 };
 

@@ -1,27 +1,13 @@
 // Kernel text that traverses two trees.
 #pragma once
 
-#include "base/assert.hpp"
+#include "base/simd/pairs.hpp"
 #include "broadphase/bvh/box_overlap.inl"
+#include "broadphase/diagonals/test.inl"
 
 namespace onset {
 namespace ONSET_ISA {
 namespace {
-
-// Entries are written eight at a time, so there is room for eight more than count.
-constexpr int kCapacity = 256;
-
-struct Pairs {
-  int a[kCapacity + kLanes], b[kCapacity + kLanes];
-  int count = 0;
-
-  bool full() const { return count > kCapacity - kLanes; }
-  void add(I8 as, I8 bs, int lanes) {
-    ONSET_ASSERT(count <= kCapacity);
-    as.store(a + count), bs.store(b + count);
-    count += count_lanes(lanes);
-  }
-};
 
 // Descends two trees side by side. Every step is a loop over a list that writes the next list without
 // branches, eight entries at a time. A full list is emptied downward first, so memory is constant.
@@ -108,7 +94,7 @@ class Traversal {
     return {overlap<kBothEnds>(box, stride, block), F8{}, F8{}};
   }
 
-  int meeting(const float* box, int stride, const float* block) const {
+  __attribute__((always_inline)) int meeting(const float* box, int stride, const float* block) const {
     const Reach r = reach_of(box, stride, block);
     const int mask = ~sign_bits(r.at_both) & 0xff;
     if (!kMoving || !t_.linear || (mask & sign_bits(r.at_start & r.at_end)) == 0) return mask;
@@ -158,10 +144,11 @@ class Traversal {
   }
 
   void empty_children(int level) {
-    if (!stopped_) level > 0 ? pair_children(level) : emit();
+    if (!stopped_) level > 0 ? pair_children(level) : tests_diagonals() ? pass_boxes() : emit();
     children_[level].count = 0;
   }
 
+  bool tests_diagonals() const { return kBothEnds && t_.diagonals != nullptr; }
   // Returns the lanes of block b that may pair with child c of the query, so that each unordered pair is
   // found once. (A primitive shares its vertices with itself.)
   static int unpaired(unsigned c, unsigned b) { return kSelf && c / kBlock == b ? 0xff << c % kBlock : 0xff; }
@@ -179,6 +166,17 @@ class Traversal {
     }
   }
 
+  // Returns the lanes of b that meet c by the signs of floats.
+  __attribute__((always_inline)) int passing(const Leaves& query, const Leaves& tree, unsigned c, unsigned b,
+                                             Reach& r) const {
+    r = reach_of(query.box(c), kLanes, tree.block(b));
+    I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
+                        tree.vertices + std::size_t(b) * (kOther * kBlock));
+    if (kKeyed) shared = shared | apart(c, b);
+    const int mask = ~sign_bits(bits_of(r.at_both) | shared) & 0xff & unpaired(c, b);
+    return kKeyed ? without_excluded(mask, c, b) : mask;
+  }
+
   void emit() {
     const Leaves query(t_.query), tree(t_.tree);  // copies, which no write can change
     const bool rounded = t_.rounded_axes != 0;
@@ -187,13 +185,8 @@ class Traversal {
     IdPair* out = out_ + count_;
     for (int e = 0; e < items; ++e) {
       const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
-      const float* box = query.box(c);
-      const Reach r = reach_of(box, kLanes, tree.block(b));
-      I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
-                          tree.vertices + std::size_t(b) * (kOther * kBlock));
-      if (kKeyed) shared = shared | apart(c, b);
-      int mask = ~sign_bits(bits_of(r.at_both) | shared) & 0xff & unpaired(c, b);
-      if (kKeyed) mask = without_excluded(mask, c, b);
+      Reach r;
+      int mask = passing(query, tree, c, b, r);
       if (const int doubt = in_doubt(mask, r, rounded); doubt != 0) {
         count_ = std::size_t(out - out_);
         mask &= ~defer(c, b, doubt);
@@ -205,13 +198,68 @@ class Traversal {
       else
         store_interleaved(&out->a, same, others);
       out += count_lanes(mask);
-      if (out > out_ + (kBatchSize - kLanes)) {
-        count_ = std::size_t(out - out_);
-        flush();
-        out = out_;
-      }
+      if (out > out_ + (kBatchSize - kLanes)) out = flushed(out);
     }
     count_ = std::size_t(out - out_);
+  }
+
+  // Does what emit() does, but for what diagonals decide: the list is left with the items that have a lane
+  // that passes, and these lanes.
+  void pass_boxes() {
+    const Leaves query(t_.query), tree(t_.tree);
+    const bool rounded = t_.rounded_axes != 0;
+    Pairs& list = children_[0];
+    const int items = list.count;
+    int passed = 0;
+    for (int e = 0; e < items; ++e) {
+      const unsigned c = unsigned(list.a[e]), b = unsigned(list.b[e]);
+      Reach r;
+      int mask = passing(query, tree, c, b, r);
+      if (const int doubt = in_doubt(mask, r, rounded); doubt != 0) mask &= ~defer(c, b, doubt);
+      list.a[passed] = int(c), list.b[passed] = int(b), passed_[passed] = mask;
+      passed += mask != 0;
+    }
+    emit_passed(passed);
+  }
+
+  // Writes the pairs of these items that no diagonal separates.
+  void emit_passed(int items) {
+    const LeafDiagonals<kOwn, kOther> diagonals(t_.query.diagonals, t_.tree.diagonals, *t_.diagonals);
+    const int *first_ids = t_.query.ids, *second_ids = t_.tree.ids;
+    const Pairs& from = children_[0];
+    IdPair* out = out_ + count_;
+    for (int e = 0; e < items; ++e) {
+      const unsigned c = unsigned(from.a[e]), b = unsigned(from.b[e]);
+      const DiagonalSpan own = diagonals.own(c);
+      const int x = first_ids[c];
+      for (int lanes = passed_[e]; lanes != 0; lanes &= lanes - 1) {
+        const unsigned lane = unsigned(lowest_lane(lanes));
+        const F8 reach = diagonals.reach(own, b, lane);
+        const DiagonalVerdict verdict = diagonals.test(reach);
+        const int y = second_ids[b * kBlock + lane];
+        if (verdict.in_doubt() && t_.diagonals_apart(t_.context, x, y, diagonals.open(c, b, lane, reach)))
+          continue;
+        out->a = kEdges && y < x ? y : x, out->b = kEdges && y < x ? x : y;
+        out += !verdict.apart();
+      }
+      if (out > out_ + (kBatchSize - kLanes)) out = flushed(out);
+    }
+    count_ = std::size_t(out - out_);
+  }
+
+  // Drops what diagonals separate from what is in doubt, and notes what they leave open.
+  void drop_doubtful() {
+    const LeafDiagonals<kOwn, kOther> diagonals(t_.query.diagonals, t_.tree.diagonals, *t_.diagonals);
+    int left = 0;
+    for (int i = 0; i < doubtful_.count; ++i) {
+      const unsigned c = unsigned(doubtful_.a[i]), slot = unsigned(doubtful_.b[i]);
+      const F8 reach = diagonals.reach(diagonals.own(c), slot / kBlock, slot % kBlock);
+      const DiagonalVerdict verdict = diagonals.test(reach);
+      doubtful_.a[left] = int(c), doubtful_.b[left] = int(slot);
+      open_[left] = verdict.in_doubt() ? diagonals.open(c, slot / kBlock, slot % kBlock, reach) : 0;
+      left += !verdict.apart();
+    }
+    doubtful_.count = left;
   }
 
   // Sets all bits of the lanes that share a vertex. The vertices of `own` are kBlock apart.
@@ -269,6 +317,7 @@ class Traversal {
   // Decides what is in doubt, eight pairs at a time in float, the rest in double.
   void settle_doubtful() {
     const Leaves query(t_.query), tree(t_.tree);
+    if (tests_diagonals()) drop_doubtful();
     for (int first = 0; first < doubtful_.count; first += kLanes) {
       const int *a = doubtful_.a + first, *b = doubtful_.b + first, left = doubtful_.count - first;
       const int lanes = left < kLanes ? (1 << left) - 1 : 0xff;
@@ -276,6 +325,9 @@ class Traversal {
       if (kMoving && t_.linear) p = compare(a, b, left);
       for (int open = lanes & ~p.apart; open != 0; open &= open - 1) {
         const int lane = lowest_lane(open), x = query.ids[a[lane]], y = tree.ids[b[lane]];
+        if (tests_diagonals() && open_[first + lane] != 0 &&
+            t_.diagonals_apart(t_.context, x, y, open_[first + lane]))
+          continue;
         if ((p.unsure >> lane & 1) != 0 && !t_.meets(t_.context, x, y)) continue;
         out_[count_++] = kEdges && y < x ? IdPair{y, x} : IdPair{x, y};
         if (count_ > kBatchSize - kLanes) flush();
@@ -291,13 +343,13 @@ class Traversal {
       const int from = l < count ? l : 0;
       boxes_a[l] = query.box(unsigned(a[from])), boxes_b[l] = tree.box(unsigned(b[from]));
     }
-    return moving_boxes_apart([&](int k) {
-      const int across = opposite(k);
-      return Direction{collect(boxes_a, across * kLanes), collect(boxes_a, (6 + across) * kLanes),
-                       collect(boxes_b, k * kLanes), collect(boxes_b, (6 + k) * kLanes)};
-    });
+    return moving_boxes_apart(boxes_a, boxes_b);
   }
 
+  IdPair* flushed(IdPair* out) {
+    count_ = std::size_t(out - out_);
+    return flush(), out_;
+  }
   void flush() {
     if (count_ > 0) t_.consume(t_.consume_context, out_, count_);
     count_ = 0;
@@ -308,6 +360,8 @@ class Traversal {
   bool stopped_ = false;
   std::size_t count_ = 0;
   IdPair out_[kBatchSize];
+  int passed_[kCapacity + kLanes];     // lanes of items of children_[0] that pass the boxes
+  unsigned open_[kCapacity + kLanes];  // the diagonals that float leaves open, of those in doubt
 };
 
 template <BoxTest kTest, Sides kSides, bool kSelf = false>

@@ -41,6 +41,9 @@ HashVertices::HashVertices(const BroadPhaseInput& input, const FloatMap& map, bo
     return;
   supports =
       make_supports(input, inflation, map, Primitive::vertex, order.vertex.data(), order.vertex.size(), stop);
+  const std::size_t count = order.vertex.size();
+  if (input.diagonals.used)
+    diagonals.write(input, input.t_max, map.linear_part(), order.vertex.data(), count, count, false, stop);
 }
 
 void HashSide::list(const BroadPhaseInput& input, const FloatMap& map, Primitive kind, bool is_static,
@@ -85,7 +88,9 @@ void HashSide::lay_out(const BroadPhaseInput& input, const FloatMap& map, Primit
   }
   ids = {}, boxes = {};
   tree.emplace(input.mesh, kind, std::move(in_order), vertices.order, !input.mesh.filter->has_static(), stop);
-  if (!stop.requested()) tree->fit(input, vertices.inflation, map, vertices.supports, stop);
+  if (!stop.requested())
+    tree->fit(input, vertices.inflation, map, vertices.supports,
+              input.diagonals.used ? &vertices.diagonals : nullptr, stop);
 }
 
 }  // namespace onset

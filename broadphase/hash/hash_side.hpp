@@ -14,6 +14,7 @@ struct HashVertices {
   double inflation = 0;
   VertexOrder order;  // by ids
   Supports supports;
+  DiagonalRecords diagonals;
 
   HashVertices() = default;
   HashVertices(const BroadPhaseInput& input, const FloatMap& map, bool is_static, const Stop& stop);

@@ -65,12 +65,11 @@ class SpatialHash final : public BroadPhase {
 
   bool make_sides(const Stop& stop) {
     const BroadPhaseInput& input = *input_;
-    sides_ = {};  // before there are new ones
+    sides_ = {}, vertices_ = {};  // before there are new ones
     const FloatMap map(input.motion);
     const std::size_t parts = input.mesh.filter->has_static() ? 2 : 1;
-    std::array<HashVertices, kSidesEach> vertices;
     for (std::size_t part = 0; part < parts && !stop.requested(); ++part)
-      vertices[part] = HashVertices(input, map, part == 1, stop);
+      vertices_[part] = HashVertices(input, map, part == 1, stop);
     if (stop.requested()) return false;
     const auto each = [&](auto&& f) {
       parallel_ranges(kSides, 1, [&](std::size_t first, std::size_t last) {
@@ -79,7 +78,7 @@ class SpatialHash final : public BroadPhase {
       });
     };
     each([&](HashSide& s, Primitive kind, std::size_t part) {
-      s.list(input, map, kind, part == 1, vertices[part], stop);
+      s.list(input, map, kind, part == 1, vertices_[part], stop);
     });
     std::vector<const std::vector<FloatBox>*> boxes;
     for (const HashSide& s : sides_) boxes.push_back(&s.boxes);
@@ -92,8 +91,9 @@ class SpatialHash final : public BroadPhase {
       exponent = std::min(exponent + wider, CellUnits::kMostExponent);
     }
     each([&](HashSide& s, Primitive kind, std::size_t part) {
-      s.lay_out(input, map, kind, vertices[part], stop);
+      s.lay_out(input, map, kind, vertices_[part], stop);
     });
+    for (HashVertices& v : vertices_) v.order = {}, v.supports = {};  // what only the trees were made from
     return !stop.requested();
   }
 
@@ -126,7 +126,7 @@ class SpatialHash final : public BroadPhase {
     const HashSide &asking = couple.query_asks ? *couple.query : *couple.other,
                    &asked = couple.query_asks ? *couple.other : *couple.query;
     const BlockPairs ask{asking, asked, couple.query_asks, self, input_->test != BoxTest::swept, first, last};
-    const TreePairDecision decide{{*input_, kind}};
+    const TreePairDecision decide(*input_, kind, *couple.query->tree, *couple.other->tree);
     TraverseArguments arguments = traverse_arguments(*couple.query->tree, *couple.other->tree, decide, sink);
     arguments.list = BlockPairs::list, arguments.list_context = &ask;
     arguments.memory = &memory;
@@ -134,6 +134,7 @@ class SpatialHash final : public BroadPhase {
   }
 
   std::optional<BroadPhaseInput> input_;
+  std::array<HashVertices, kSidesEach> vertices_;
   std::array<HashSide, kSides> sides_;
   std::array<std::vector<Couple>, kPairKinds> couples_;
   mutable FreeList<TraversalMemory> memory_;

@@ -248,6 +248,7 @@ void HeldCandidates::clear() {
   for (List& list : lists_) list = List();
   for (auto& v : vertices_) v = {};
   for (auto& r : records_) r = AlignedArray<float>();
+  for (auto& d : diagonals_) d = DiagonalRecords();
 }
 
 void HeldCandidates::fit(const BroadPhaseInput& input, double magnitude, const Stop& stop) {
@@ -263,6 +264,9 @@ void HeldCandidates::fit(const BroadPhaseInput& input, double magnitude, const S
     rounded_axes_ |=
         write_supports(*input_, part_inflation(input, c == 1), map, Primitive::vertex, vertices_[c].data(),
                        vertices_[c].size(), {records_[c].data(), kStride, true}, stop);
+    if (input.diagonals.used)
+      diagonals_[c].write(*input_, input.t_max, map.linear_part(), vertices_[c].data(), vertices_[c].size(),
+                          std::size_t(input.mesh.num_vertices), true, stop);
   }
   linear_ = input.test == BoxTest::moving && map.is_linear() && map.keeps(magnitude + 2 * inflation_);
 }
@@ -280,7 +284,7 @@ void HeldCandidates::traverse(PairKind kind, std::size_t first, std::size_t last
   a.second_vertices = vertices_of(input_->mesh, second_primitive(kind));
   a.sides = sides_of(kind), a.test = input_->test;
   a.rounded_axes = rounded_axes_, a.linear = linear_;
-  a.meets = OverlapDecision::meet, a.context = &decide;
+  a.meets = OverlapDecision::meet, a.diagonals_apart = OverlapDecision::diagonals_apart, a.context = &decide;
   a.consume = sink.consume, a.consume_context = sink.context;
   a.stop = sink.stop.asked, a.stop_context = sink.stop.context;
   a.memory = &*memory;
@@ -292,6 +296,14 @@ void HeldCandidates::traverse(PairKind kind, std::size_t first, std::size_t last
     a.pairs = list.pairs.data() + begin, a.count = list.ends[end - 1] - begin;
     a.first_records = records_[std::size_t(alike[0])].data();
     a.second_records = records_[std::size_t(alike[1])].data();
+    DiagonalLimits limits;
+    if (input_->diagonals.used) {
+      const DiagonalRecords &p = diagonals_[std::size_t(alike[0])], &q = diagonals_[std::size_t(alike[1])];
+      const double inflations = part_inflation(*input_, alike[0]) + part_inflation(*input_, alike[1]);
+      limits = diagonal_limits(*input_, inflations, p, q);
+      a.diagonals = &limits;
+      a.first_diagonals = p.records.data(), a.second_diagonals = q.records.data();
+    }
     if (a.count > 0) test_pairs(a, input_->instruction_set);
   }
 }

@@ -10,6 +10,7 @@
 #include "base/free_list.hpp"
 #include "broadphase/broad_phase.hpp"
 #include "broadphase/bvh/float_boxes.hpp"
+#include "broadphase/diagonals/records.hpp"
 #include "broadphase/held/kernel.hpp"
 
 namespace onset {
@@ -72,6 +73,7 @@ class HeldCandidates {
   // Of what may move and of what is static: the vertices with a record, and the records by id.
   std::array<std::vector<int>, 2> vertices_;
   std::array<AlignedArray<float>, 2> records_;
+  std::array<DiagonalRecords, 2> diagonals_;
   std::optional<BroadPhaseInput> input_;
   std::optional<FloatMap> map_;  // of the positions then: those that are covered are near them
   int rounded_axes_ = 0;

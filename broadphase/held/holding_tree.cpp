@@ -17,6 +17,8 @@ constexpr double kSlackOfChange = 2;
 constexpr double kMostSlack = 0.05;
 // Held pairs beyond this many a candidate cost more to test than a tree to traverse.
 constexpr std::size_t kMostHeldACandidate = 4, kFew = 4096;
+// Of what passes the boxes, diagonals leave about one in so many, and pairs are held without them.
+constexpr std::size_t kBoxesACandidate = 3;
 // After pairs were held that served no call, so many times as many calls pass before pairs are held again.
 constexpr int kLongestPause = 64;
 constexpr int kMostServed = 1 << 20;  // counted
@@ -132,13 +134,15 @@ class HoldingTree final : public BroadPhase {
     BroadPhaseInput wide = input;
     const double by = slack(input, moved, magnitude);
     wide.inflation += by;
+    wide.diagonals.used = false;  // what is held serves calls with and without them
     refit_tree(wide, stop);
     if (!tree_->ready()) return false;
     std::size_t most = input.most_held;
     if (seen_blocks_ > 0) {
       std::size_t blocks = 0;
       for (const PairKind kind : wanted_kinds(input)) blocks += tree_->blocks(kind);
-      const double seen = double(seen_pairs_) / double(seen_blocks_) * double(blocks);
+      const double passed = double(seen_pairs_) * (input.diagonals.used ? double(kBoxesACandidate) : 1);
+      const double seen = passed / double(seen_blocks_) * double(blocks);
       most = std::min(most, std::size_t(kMostHeldACandidate * seen) + kFew);
     }
     HeldPositions from(input);

@@ -16,6 +16,8 @@ struct HeldArguments : PairTestArguments {
   const float *first_records, *second_records;
   // The vertices of edges (two each) or faces (three each), by id; not used for vertices.
   const int *first_vertices, *second_vertices;
+  // Places of vertices along diagonals, by id, where these are tested.
+  const float *first_diagonals, *second_diagonals;
 };
 
 #define ONSET_DECLARE_HELD_KERNEL(isa)             \

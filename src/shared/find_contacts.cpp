@@ -109,8 +109,8 @@ void add_planes(const PlaneContacts& planes, std::size_t most, TraversalResult& 
 }
 
 // Says whether a pair is a candidate of the whole step, as an active set has it.
-bool is_candidate(const void* setup, PairKind kind, IdPair pair) {
-  return boxes_overlap(*static_cast<const StepSetup*>(setup)->whole, kind, pair);
+bool is_contact_candidate(const void* setup, PairKind kind, IdPair pair) {
+  return is_candidate(*static_cast<const StepSetup*>(setup)->whole, kind, pair);
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   NarrowPhaseInput input = narrow_phase_input(mesh, setup, options, collect, limited);
   input.for_many = mesh.data().whole ? mesh.data().whole->rounds_all
                                      : rounds_all(mesh.data().filter->static_ids.size(), mesh.num_vertices());
-  const PairPredicate contacts{&setup, is_candidate};
+  const PairPredicate contacts{&setup, is_contact_candidate};
   if (collect == Collect::first) {
     input.stored = true;
     input.rounding = setup.rounding;
@@ -154,6 +154,7 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   if (shrinks) shrunk = shrink_to_t_max(mesh, setup, narrow, options, collect, known, budget, sampled);
   TraversalBounds limits = limited;
   if (shrunk.boxes) limits.whole = &*setup.tree;
+  if (collect == Collect::any) limits.whole = &*setup.whole;
   traversal = traverse_pairs(*setup.broad, narrow, collect, shrunk.t_max, budget, 1, limits);
   if (collect == Collect::first) traversal.limits.add(sampled);
   if (collect == Collect::all && !mesh.data().whole)

@@ -133,7 +133,7 @@ class PairTraversal {
       if (results.size() >= kHeldByATask) traversal.merge(*this);
     }
     void keep_candidates_of(const BroadPhaseInput& whole, std::size_t first) {
-      const auto is_other = [&](const PairResult& r) { return !boxes_overlap(whole, kind, r.pair); };
+      const auto is_other = [&](const PairResult& r) { return !is_candidate(whole, kind, r.pair); };
       results.erase(std::remove_if(results.begin() + std::ptrdiff_t(first), results.end(), is_other),
                     results.end());
     }

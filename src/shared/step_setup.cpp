@@ -112,6 +112,11 @@ StepSetup::StepSetup(const Mesh& mesh, const Positions& x_t0, const Positions& x
   const BoxReach boxes = box_reach(data, motion, options, use, reach, d_hat);
   whole.emplace(boxes.whole);
   tree.emplace(boxes.tree);
+  // With this margin what diagonals drop is farther apart than any pair that is reported with checks left. A
+  // step, or a search for any contact, looks at few pairs, for which making records costs more than they
+  // spare: it asks at a contact.
+  whole->diagonals = {use == Use::contacts || use == Use::stored_step, options.norm, reach};
+  if (use == Use::contacts && looks != Looks::at_any) tree->diagonals = whole->diagonals;
   tree->looks = looks;
   tree->most_held = most_held(data, options, budget);
   rounding = boxes.rounding;

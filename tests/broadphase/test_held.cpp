@@ -118,6 +118,8 @@ int sequence(Moving& scene, InstructionSet instruction_set, BoxTest test, Random
     input.static_inflation = scene.is_static.empty() ? -1 : 0.5 * inflation;
     input.looks = Looks::at_all;
     input.most_held = kMany;
+    input.diagonals = {scenes::coin(random), Norm::euclidean, scenes::coin(random) ? 0 : 0.01 * edge};
+    if (input.test == BoxTest::swept) input.diagonals.used = false;
     if (!tree)
       tree = make_holding_tree(input, {});
     else

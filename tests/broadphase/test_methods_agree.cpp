@@ -35,6 +35,11 @@ std::size_t expect_agreement_of_all_tests(const std::string& what, BroadPhaseInp
   for (BoxTest test : {BoxTest::swept, BoxTest::both_ends, BoxTest::moving}) {
     input.test = test;
     total += expect_agreement(what, input);
+    if (test == BoxTest::swept) continue;
+    const bool moving = test == BoxTest::moving;
+    input.diagonals = {true, moving ? Norm::maximum : Norm::euclidean, moving ? 0.01 * input.inflation : 0};
+    expect_agreement(what + ", diagonals", input);
+    input.diagonals = {};
   }
   return total;
 }
