@@ -70,7 +70,7 @@ unsigned separating(const Corners& a, const Corners& b, double reach, Norm norm,
   for (int k = 0; k < kDiagonals; ++k) {
     if ((which >> k & 1) == 0) continue;
     const Interval s = extent_along(k, a, a), t = extent_along(k, b, a);
-    const double needed = reach * diagonal_reach(k, norm) + error;
+    const double needed = reach * diagonal_reach(norm) + error;
     sides |= unsigned(t.lo - s.hi > needed) << k | unsigned(s.lo - t.hi > needed) << (kDiagonals + k);
   }
   return sides;
@@ -78,21 +78,15 @@ unsigned separating(const Corners& a, const Corners& b, double reach, Norm norm,
 
 }  // namespace
 
-// The square roots of 2 and 3, next to which doubles are 2^-52 apart, and 2^-50 for the product and the sum
-// that follow.
-double diagonal_reach(int diagonal, Norm norm) {
-  const bool corner =
-      kDiagonal[diagonal][1] != 0 && kDiagonal[diagonal][2] != 0 && kDiagonal[diagonal][0] != 0;
-  const double exact_or_above =
-      norm == Norm::maximum ? (corner ? 3 : 2) : (corner ? 1.7320508075688774 : 1.4142135623730952);
-  return exact_or_above * (1 + 0x1p-50);
-}
+// The square root of 2, next to which doubles are 2^-52 apart, and 2^-50 for the product and the sum that
+// follow.
+double diagonal_reach(Norm norm) { return (norm == Norm::maximum ? 2 : 1.4142135623730952) * (1 + 0x1p-50); }
 
 bool diagonals_apart(const BroadPhaseInput& input, PairKind kind, IdPair pair, unsigned which) {
   const Primitive first = first_primitive(kind), second = second_primitive(kind);
+  if (first == second && pair.b < pair.a) std::swap(pair.a, pair.b);  // whoever asks
   const double inflations = widen_up(widened_by(input, first, pair.a), widened_by(input, second, pair.b));
   const double reach = widen_up(inflations, input.diagonals.margin);
-  if (first == second && pair.b < pair.a) std::swap(pair.a, pair.b);  // differences are from the first
   unsigned sides = which | which << kDiagonals;
   if (sides == 0) return false;
   for (const bool at_end : {false, true}) {

@@ -5,7 +5,7 @@
 
 namespace onset {
 
-// A record of a vertex has its places along the eight diagonals at t = 0, then at t = 1, through a linear
+// A record of a vertex has its places along the diagonals at t = 0, then at t = 1, through a linear
 // map; of a vertex that is too far out for the error of the others it has kFarOut and -kFarOut, with which
 // nothing is apart.
 inline constexpr int kDiagonalStride = 16;

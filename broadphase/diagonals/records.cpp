@@ -57,8 +57,7 @@ DiagonalLimits diagonal_limits(const BroadPhaseInput& input, double inflations, 
   DiagonalLimits limits{};
   constexpr double kDown = 1 - 0x1p-22, kUp = 1 + 0x1p-22;  // also for the rounding to float
   for (int k = 0; k < kDiagonals; ++k) {
-    const double unit = diagonal_reach(k, input.diagonals.norm) * a.map.scale,
-                 margin = input.diagonals.margin;
+    const double unit = diagonal_reach(input.diagonals.norm) * a.map.scale, margin = input.diagonals.margin;
     limits.apart[k] = float(std::min(((inflations + most + margin) * unit + error) * kUp, 0x1p120));
     limits.together[k] = float(std::min((inflations + least + margin) * unit * kDown - error * kUp, 0x1p120));
   }

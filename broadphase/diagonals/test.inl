@@ -1,4 +1,4 @@
-// Kernel text: two primitives along the eight diagonals, which are the lanes.
+// Kernel text: two primitives along the diagonals, which are the lanes.
 #pragma once
 
 #include "base/simd/pack.hpp"

@@ -13,8 +13,9 @@ struct FourMapped {
   D4 x, y, z;
 
   D4 magnitude() const { return abs(x) + abs(y) + abs(z); }
+  // In the order of kDiagonal.
   D4 along(int diagonal) const {
-    switch (diagonal) {
+    switch (diagonal % 6) {
       case 0:
         return x + y;
       case 1:
@@ -25,12 +26,8 @@ struct FourMapped {
         return x - z;
       case 4:
         return y + z;
-      case 5:
-        return y - z;
-      case 6:
-        return x + y + z;
       default:
-        return x - y + z;
+        return y - z;
     }
   }
 };

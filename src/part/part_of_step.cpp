@@ -27,7 +27,7 @@ struct PartOfStep::Impl {
         budget(o),
         setup(of, x_t0, x_t1, o,
               wanted == Collect::first ? StepSetup::Use::stored_step : StepSetup::Use::contacts, stats,
-              budget) {}
+              budget, 0, wanted == Collect::any ? Looks::at_any : Looks::at_all) {}
 };
 
 PartOfStep::PartOfStep(const Mesh& mesh, const Positions& x_t0, const Positions& x_t1, const Options& options,
