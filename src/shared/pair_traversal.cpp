@@ -59,7 +59,8 @@ class PairTraversal {
   void run_all(TraversalResult& result) {
     std::size_t blocks = 0;
     for (const PairKind kind : kStepKinds) blocks += count(kind);
-    parallel_ranges(blocks, blocks_a_task(blocks), [&](std::size_t first, std::size_t last) {
+    const std::size_t each = stride_ == 1 ? blocks_a_task(blocks) : 1;  // a sample has few blocks
+    parallel_ranges(blocks, each, [&](std::size_t first, std::size_t last) {
       std::size_t begin = 0;  // of a kind
       for (const PairKind kind : kStepKinds) {
         const std::size_t end = begin + count(kind);
