@@ -2,7 +2,7 @@
 # Builds onset::mpi with Open MPI and with MPICH, each in a folder of its own on one build of the library, and runs its tests.
 #   test-mpi.sh          small scenes on 1, 2 and 4 ranks, and a few injected faults: minutes
 #   test-mpi.sh --all    the recorded scenes (ONSET_DATA says where they are) and 200 generated ones on 1, 2, 3, 4 and 7 ranks, what
-#                        steps exchange, and 1,000 faults, with Open MPI: about an hour of two cores
+#                        steps exchange, and 1,000 faults, with Open MPI: about half an hour of two idle cores
 # CMAKE_BUILD_PARALLEL_LEVEL is heeded.
 set -eu
 cd "$(dirname "$0")/.."
