@@ -14,6 +14,8 @@
 
 namespace onset {
 
+inline constexpr std::size_t kFewToSort = 2000;  // so few are sorted faster by comparing
+
 // Deals items out into buckets by their keys, whose ranges follow on one another, and sorts each bucket.
 template <class T, class Key>
 class BucketSort {
@@ -47,8 +49,6 @@ class BucketSort {
   }
 
  private:
-  static constexpr std::size_t kFew = 2000;  // so few are sorted faster by comparing
-
   // Four buckets a piece, so that threads that are done early help on.
   void choose_borders() {
     constexpr std::size_t kBucketsAPiece = 4, kSamplesABucket = 16;
@@ -65,8 +65,8 @@ class BucketSort {
 
   bool sort(std::size_t first, std::size_t last) {
     T* const from = scratch_ + first;
-    if (last - first < kFew)
-      std::sort(from, from + (last - first), [&](const T& x, const T& y) { return key_(x) < key_(y); });
+    if (last - first < kFewToSort)
+      sort_by(from, from + (last - first), key_);
     else if (!radix_sort(from, items_ + first, last - first, key_, stop_))
       return false;
     return each_unless(stop_, first, last, [&](std::size_t i) { items_[i] = scratch_[i]; });
@@ -99,6 +99,7 @@ class BucketSort {
 // key.
 template <class T, class Key>
 bool parallel_radix_sort(T* items, T* scratch, std::size_t count, const Key& key, const Stop& stop = {}) {
+  if (count < kFewToSort) return sort_by(items, items + count, key), true;
   const std::size_t pieces = sort_pieces(count);
   if (pieces == 1) return radix_sort(items, scratch, count, key, stop);
   return BucketSort<T, Key>(items, scratch, count, key, pieces, stop).run();

@@ -85,10 +85,6 @@ class Parts {
     open_ = {};
   }
   template <class Key>
-  static void sort_by(T* first, T* last, const Key& key) {
-    std::sort(first, last, [&](const T& p, const T& q) { return key(p) < key(q); });
-  }
-  template <class Key>
   bool sort_few(std::vector<T>& out, const Key& key) {
     const std::size_t before = out.size();
     out.reserve(before + count_);

@@ -13,6 +13,12 @@
 
 namespace onset {
 
+// Sorts by key(item) by comparing.
+template <class T, class Key>
+void sort_by(T* first, T* last, const Key& key) {
+  std::sort(first, last, [&](const T& x, const T& y) { return key(x) < key(y); });
+}
+
 // Sorts by key(item), a std::uint64_t, ascending and stable. Only digits in which keys differ cost a pass.
 // `scratch` is room for as many items, which is overwritten. Returns false where it was stopped: the items
 // are then lost.

@@ -119,7 +119,6 @@ class FoundPairs {
   };
   // So many beyond half as many again as are wanted are held before the latest are dropped.
   static constexpr std::size_t kSlack = 1024;
-  static constexpr std::size_t kFew = 2000;  // so few are sorted faster by comparing
   static constexpr std::size_t kPartsATask = 4;
 
   static Time time_of(PairKind kind, const PairResult& r) { return {r.toi, order_of(kind, r.pair)}; }
@@ -179,12 +178,8 @@ class FoundPairs {
     const std::unique_ptr<Place[]> places(new Place[held_]);
     std::unique_ptr<Place[]> scratch(new Place[held_]);
     if (!list_places(places.get(), stop)) return false;
-    if (held_ < kFew)
-      std::sort(places.get(), places.get() + held_,
-                [](const Place& x, const Place& y) { return x.order < y.order; });
-    else if (!parallel_radix_sort(
-                 places.get(), scratch.get(), held_, [](const Place& p) { return p.order; }, stop))
-      return false;
+    const auto order = [](const Place& p) { return p.order; };
+    if (!parallel_radix_sort(places.get(), scratch.get(), held_, order, stop)) return false;
     scratch.reset();
     out.reserve(held_);
     const auto found = [&](std::size_t i) {
