@@ -51,13 +51,13 @@ class Communicator {
     }
     agree(failure);
   }
-  // (c) Throws std::invalid_argument on all ranks unless all have the same values, naming the first that
-  // differs. One message; nothing is allocated.
   struct Named {
     const char* name;
     std::uint64_t value;
   };
   static constexpr std::size_t kMostNamed = 16;
+  // (c) Throws std::invalid_argument on all ranks unless all have the same values, naming the first that
+  // differs. One message; nothing is allocated.
   void require_same(std::initializer_list<Named> values) const;
 
   // (c) In place.

@@ -17,8 +17,8 @@ CALLS = {"active set": "active-set {} 1e-8", "step": "step {} 1e-6"}  # {}: thre
 FIRST = 4  # calls until all that is kept from call to call is there
 CORES = (2, 16, 64)
 THREADS = 4  # so that what is divided only among several is divided
-LOOP = r"\S*:onset::backend::run_ranges\([^'\n]*$"  # not those within another;
-# what every parallel loop goes through (base/parallel.hpp)
+# What every parallel loop goes through (base/parallel.hpp), but not those within another.
+LOOP = r"\S*:onset::backend::run_ranges\([^'\n]*$"
 
 
 def profile(server, frames, call, count, threads):
