@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "scene/pair_source.hpp"
@@ -118,6 +119,30 @@ class PieceKeys {
   std::vector<bool> turns_;
 };
 
+// Which rigid bodies of a trajectory the mesh lets meet themselves: all, but those whose primitives are all
+// of one body of the mesh that does not.
+class MeetsItself {
+ public:
+  MeetsItself(const MeshData& mesh, const std::vector<int>& body) {
+    if (!mesh.filter->keeps_apart()) return;
+    for (const Primitive kind : kPrimitives)
+      for (const int id : listed(mesh, kind)) {
+        const int of = body_of(mesh, body, kind, id);
+        if (of < 0) continue;
+        const int key = mesh.filter->keys[std::size_t(kind)][std::size_t(id)].body;
+        const auto [at, is_first] = key_of_.try_emplace(of, key);
+        if (!is_first && at->second != key) at->second = 0;
+      }
+  }
+  bool operator()(int body) const {
+    const auto at = key_of_.find(body);
+    return at == key_of_.end() || at->second == 0;
+  }
+
+ private:
+  std::unordered_map<int, int> key_of_;  // of all primitives of a body, 0: several, or one that meets itself
+};
+
 }  // namespace
 
 std::vector<int> bodies_of(const Mesh& mesh, const Trajectory& trajectory) {
@@ -144,15 +169,14 @@ TurningScene::TurningScene(const Mesh& mesh, std::vector<int> bodies) : body(std
     turning_vertices.push_back(int(v));
   }
   Lists within;  // one rigid body
+  const MeetsItself meets_itself(data, body);
   const int first_body = turning_vertices.empty() ? 0 : body[std::size_t(turning_vertices[0])];
   for (const Primitive kind : kPrimitives)
     for (const int id : listed(data, kind)) {
       const int of = body_of(data, body, kind, id);
       (of == Trajectory::kLinear ? others : turning)[std::size_t(kind)].push_back(id);
       if (of != Trajectory::kLinear && (of < 0 || of != first_body)) is_one_body = false;
-      if (of >= 0 &&
-          (!data.filter->keeps_apart() || data.filter->keys[std::size_t(kind)][std::size_t(id)].body == 0))
-        within[std::size_t(kind)].push_back(id), has_rest = true;
+      if (of >= 0 && meets_itself(of)) within[std::size_t(kind)].push_back(id), has_rest = true;
     }
   linear = Mesh(with_lists(data, others));
   rest_data = with_lists(data, within);

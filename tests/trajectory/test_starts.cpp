@@ -25,6 +25,14 @@ Eigen::MatrixXi triangles(int count) {
   return faces;
 }
 
+// Two bodies of the rules, of one triangle each, that may be rigid.
+CollisionRules two_bodies(bool first_is_rigid) {
+  CollisionRules rules;
+  rules.bodies = {0, 0, 0, 1, 1, 1};
+  rules.rigid_bodies = {first_is_rigid, true};
+  return rules;
+}
+
 // A triangle, and a corner of another one within a few u of it.
 MatrixXd nearly_touching(Random& random) {
   MatrixXd x(6, 3);
@@ -71,6 +79,31 @@ TEST_CASE("a rigid body that is nearly touched by itself is never stored through
   RigidTrajectory t(x);
   t.add_body(0, 6, {0, 1, 0}, {1, 0, 0}, {0, 0, 0});
   CHECK(compute_collision_free_stepsize(Mesh(x, triangles(2)), t).step == 1);
+}
+
+TEST_CASE("two bodies of the rules that turn as one meet each other at the start", "[trajectory]") {
+  MatrixXd x(6, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, .2, .2, 0, .3, .2, 1, .2, .3, 1;
+  for (const bool first_is_rigid : {false, true}) {
+    const Mesh touching(x, triangles(2), two_bodies(first_is_rigid));
+    RigidTrajectory t(x);
+    t.add_body(0, 6, {0, 0, 1}, {0, 0, 0}, {0, 0, 0});
+    const StepResult r = compute_collision_free_stepsize(touching, t);
+    CHECK(r.step == 0);
+    CHECK(r.outcome == Outcome::initial_contact);
+    CHECK_FALSE(is_step_collision_free(touching, t));
+    CHECK(construct_active_set(touching, t).size() > 0);
+  }
+  Random random(812);
+  for (int i = 0; i < fuzz(500); ++i) {  // each is rigid, and apart by less than what is stored of the other
+    const MatrixXd near = nearly_touching(random);
+    const Mesh mesh(near, triangles(2), two_bodies(scenes::coin(random)));
+    if (has_intersections(mesh, near)) continue;
+    RigidTrajectory t(near);
+    t.add_body(0, 6, any(random, 3).transpose(), any(random, 1).transpose(), {0, 0, 0});
+    const StepResult r = compute_collision_free_stepsize(mesh, t);
+    if (r.step > 0) REQUIRE_FALSE(has_intersections(mesh, t.at(r.step)));
+  }
 }
 
 TEST_CASE("what starts within its separation is an initial contact in every call on a trajectory",
