@@ -1,4 +1,5 @@
-// Sequences of calls on one mesh: each answer is that of a fresh mesh, to the byte.
+// Sequences of calls on one mesh: each answer is that of a fresh mesh with another kernel and number of
+// threads, to the byte.
 #include <cmath>
 #include <exception>
 #include <stdexcept>
@@ -6,6 +7,7 @@
 #include "tests/fuzz/digest.hpp"
 #include "tests/fuzz/mesh_input.hpp"
 #include "tests/fuzz/target.hpp"
+#include "tests/narrowphase/kernel/kernels.hpp"
 
 namespace onset::fuzz {
 
@@ -40,17 +42,28 @@ class Session {
   }
 
  private:
-  // f(mesh) by the mesh in use and by a fresh one.
+  // f(mesh, options) by the mesh in use and by a fresh one.
   template <class F>
   void compare(const char* name, F&& f) {
-    const std::string fresh = answer(f, input_.mesh());
-    const std::string used = answer(f, mesh_);
+    Options options = input_.options;
+    options.threads = two_threads_ ? 2 : 1;
+    const std::string fresh = answer(f, input_.mesh(), other_way(options));
+    const std::string used = answer(f, mesh_, options);
     if (used != fresh) broken_ = std::string("another answer after other calls: ") + name;
   }
+  // What may not change an answer, otherwise, in turn.
+  Options other_way(Options options) {
+    static const std::vector<InstructionSet> sets = tests::kernels();
+    ++turn_;
+    options.instruction_set = sets[turn_ % sets.size()];
+    options.threads = turn_ / sets.size() % 2 == 0 ? 1 : 2;
+    options.hold_candidates = false;
+    return options;
+  }
   template <class F>
-  static std::string answer(F&& f, const Mesh& mesh) {
+  static std::string answer(F&& f, const Mesh& mesh, const Options& options) {
     try {
-      return digest(f(mesh));
+      return digest(f(mesh, options));
     } catch (const std::invalid_argument& e) {
       return std::string("throws ") + e.what();
     }
@@ -58,33 +71,37 @@ class Session {
 
   void ask(int what) {
     const Eigen::MatrixXd &x0 = input_.x_t0, &x1 = input_.x_t1;
-    Options o = input_.options;
-    o.threads = two_threads_ ? 2 : 1;
     switch (what) {
       case 0:
-        return compare("step", [&](const Mesh& m) { return compute_collision_free_stepsize(m, x0, x1, o); });
+        return compare("step", [&](const Mesh& m, const Options& o) {
+          return compute_collision_free_stepsize(m, x0, x1, o);
+        });
       case 1:
-        return compare("active set", [&](const Mesh& m) { return construct_active_set(m, x0, x1, o); });
+        return compare("active set",
+                       [&](const Mesh& m, const Options& o) { return construct_active_set(m, x0, x1, o); });
       case 2:
-        return compare("candidates", [&](const Mesh& m) {
+        return compare("candidates", [&](const Mesh& m, const Options& o) {
           candidates_ = compute_candidates(m, x0, x1, o);
           return *candidates_;
         });
       case 3:
-        return compare("close pairs", [&](const Mesh& m) { return close_pairs(m, x0, input_.d_hat, o); });
+        return compare("close pairs",
+                       [&](const Mesh& m, const Options& o) { return close_pairs(m, x0, input_.d_hat, o); });
       case 4:
-        return compare("check", [&](const Mesh& m) { return check(m, x0, o); });
+        return compare("check", [&](const Mesh& m, const Options& o) { return check(m, x0, o); });
       case 5:
-        return compare("intersections", [&](const Mesh& m) { return intersections(m, x0, o); });
+        return compare("intersections",
+                       [&](const Mesh& m, const Options& o) { return intersections(m, x0, o); });
       case 6:
-        return compare("is free", [&](const Mesh& m) { return is_step_collision_free(m, x0, x1, o); });
+        return compare("is free",
+                       [&](const Mesh& m, const Options& o) { return is_step_collision_free(m, x0, x1, o); });
       case 7:  // those of an earlier motion, too
         if (!candidates_ || candidates_->outcome != Outcome::free) return;
-        return compare("step of candidates", [&](const Mesh& m) {
+        return compare("step of candidates", [&](const Mesh& m, const Options& o) {
           return compute_collision_free_stepsize(m, *candidates_, x0, x1, o, input_.gap_share);
         });
       case 8:
-        return compare("step of close pairs", [&](const Mesh& m) {
+        return compare("step of close pairs", [&](const Mesh& m, const Options& o) {
           return compute_cfl_stepsize(m, x0, x1, close_pairs(m, x0, input_.d_hat, o), o, input_.gap_share);
         });
       default:
@@ -227,6 +244,7 @@ class Session {
   MeshInput input_;
   Mesh mesh_;
   bool two_threads_ = false;
+  std::size_t turn_ = 0;
   std::vector<Search> searches_;
   std::optional<Candidates> candidates_;
   std::string broken_, trail_;
