@@ -14,6 +14,7 @@ namespace onset {
 // The entry points of broadphase/bvh/kernel.hpp for one instruction set.
 struct BvhKernel {
   decltype(&bvh_scalar::fit_leaves) fit_leaves;
+  decltype(&bvh_scalar::fit_spans) fit_spans;
   decltype(&bvh_scalar::fit_level) fit_level;
   decltype(&bvh_scalar::write_vertices) write_vertices;
   decltype(&bvh_scalar::traverse) traverse;
@@ -68,7 +69,7 @@ class BoxTree {
   const DiagonalRecords* diagonals_ = nullptr;
   AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_ are ranks
   std::vector<int> names_, bodies_, keys_;  // names_: vertices_ as ids, empty for an `alone` tree
-  AlignedArray<float> boxes_;
+  AlignedArray<float> boxes_, spans_;       // spans_: of edges along diagonals
   TreeView view_{};
 };
 

@@ -12,7 +12,7 @@ inline constexpr int kDiagonalStride = 16;
 inline constexpr float kFarOut = 0x1p100f;
 // So far out, the sum of the magnitudes of its coordinates; and at t = 1, where only the motion up to a
 // t_max < 1 matters.
-inline constexpr double kFarthest = 0x1p6, kFarthestEnd = 0x1p12;
+inline constexpr double kFarthest = 0x1p10, kFarthestEnd = 0x1p12;
 
 // Maps x to (x - centre) * scale, a power of two.
 struct LinearMap {
@@ -40,7 +40,8 @@ struct DiagonalRange {
 // sum with its `apart` is negative. They certainly are not where all sums with `together` are positive or 0.
 struct DiagonalLimits {
   float apart[8], together[8];
-  // Whether there may be vertices of kFarOut, for which the latter says nothing.
+  // Whether there may be vertices of kFarOut, for which the latter says nothing. The smallest reach of a pair
+  // with such a vertex is 0 or about kFarOut along all diagonals.
   bool far_out;
 };
 

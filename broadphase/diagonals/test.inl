@@ -57,13 +57,16 @@ class DiagonalTester {
  public:
   explicit DiagonalTester(const DiagonalLimits& limits)
       : apart_(F8::load(limits.apart)),
-        together_(limits.far_out ? F8::all(-0x1p126f) : F8::load(limits.together)) {}
+        together_(limits.far_out ? min(F8::load(limits.together), F8::all(-0x1p-120f))
+                                 : F8::load(limits.together)),
+        far_out_(F8::all(limits.far_out ? 0.25f * kFarOut : 0x1p126f)) {}
   __attribute__((always_inline)) DiagonalVerdict operator()(F8 reach) const {
-    return {unsigned(sign_bits(reach + apart_)) << 8 | unsigned(sign_bits(reach + together_))};
+    const F8 together = min(reach + together_, far_out_ - reach);
+    return {unsigned(sign_bits(reach + apart_)) << 8 | unsigned(sign_bits(together))};
   }
 
  private:
-  F8 apart_, together_;
+  F8 apart_, together_, far_out_;
 };
 
 // Returns the diagonals that doubles have to decide about, of a pair that the tester leaves in doubt.

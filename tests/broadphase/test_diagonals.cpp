@@ -110,7 +110,13 @@ std::vector<Soup> small_soups() {
   const Soup base = scattered("scattered", 16, 0.4, 0.3, random);
   Soup away = base;
   away.name = "one vertex far away", away.x_t1[0] = 1e12, away.x_t0[40] = -1e9;
+  Soup group = base;  // four triangles far away that meet each other there
+  group.name = "a group far away";
+  for (std::size_t i = 0; i < 36; ++i)
+    for (std::vector<double>* x : {&group.x_t0, &group.x_t1})
+      (*x)[i] = 0.3 * scenes::uniform(random, -1, 1) + (i % 3 == 0 ? 1e5 : 0);
   return {base,
+          group,
           scattered("usual", 60, 0.15, 0.05, random),
           tangled(14, 15, random),
           triangles("whole", 14, random, whole),
