@@ -109,7 +109,7 @@ double HeldPositions::moved(const BroadPhaseInput& input, double& magnitude) con
 }
 
 double HeldCandidates::least_slack(const BroadPhaseInput& input, double magnitude) {
-  return 0x1p-38 * (magnitude + input.inflation) + 0x1p-1000;
+  return 0x1p-38 * (magnitude + input.inflation + input.diagonals.margin) + 0x1p-1000;
 }
 
 // Let L bound all coordinates, then and now, and the inflation of then. What is asked here makes every box of
@@ -117,12 +117,18 @@ double HeldCandidates::least_slack(const BroadPhaseInput& input, double magnitud
 // both ends: all roundings of both are below 2^-49 L. So every reach of a box over another has fallen by d:
 // a pair that was apart along a side at both ends is so still, on a part of the step too, and one whose
 // moving boxes were apart has a begin that is later and an end that is earlier, each by a factor of 2^-43,
-// while computed roots err by a few 2^-53 (docs/theory.md, L50).
+// while computed roots err by a few 2^-53 (docs/theory.md, L50). What is asked of the margin does the same
+// for diagonals (L54).
 bool HeldCandidates::cover(const BroadPhaseInput& input, double moved, double magnitude) const {
-  if (!held_ || input.test == BoxTest::swept) return false;
+  if (!held_ || input.test == BoxTest::swept || size_ >= input.most_held) return false;
   if (test_ == BoxTest::moving && (input.test != BoxTest::moving || input.t_max != 1)) return false;
   if (input.mesh.filter->has_static() && part_inflation(input, true) != static_inflation_) return false;
-  const double allowance = 0x1p-40 * (magnitude + inflation_) + 0x1p-1000;
+  const double allowance = 0x1p-40 * (magnitude + inflation_ + tested_by_.margin) + 0x1p-1000;
+  if (tested_by_.used) {
+    const DiagonalTest& now = input.diagonals;
+    if (!now.used || now.norm != tested_by_.norm || input.t_max != 1) return false;
+    if (!((now.margin + moved + allowance) * (1 + 0x1p-50) <= tested_by_.margin)) return false;
+  }
   return (part_inflation(input, false) + moved + allowance) * (1 + 0x1p-50) <= inflation_;
 }
 
@@ -173,17 +179,21 @@ bool HeldCandidates::fill(const BroadPhase& tree, const BroadPhaseInput& input, 
       }
     }
   });
-  if (Filling::asked(&filling)) return false;
-  std::partial_sum(list.ends.begin(), list.ends.end(), list.ends.begin());
-  list.pairs.resize(blocks == 0 ? 0 : list.ends.back());
+  const bool filled = !Filling::asked(&filling);
+  if (filled) {
+    std::partial_sum(list.ends.begin(), list.ends.end(), list.ends.begin());
+    list.pairs = AlignedArray<IdPair>(blocks == 0 ? 0 : list.ends.back());
+  }
+  // What was found is given back in parallel, whatever becomes of it: that takes its time.
   parallel_ranges(chunks, 4, [&](std::size_t chunk, std::size_t end) {
     for (; chunk < end; ++chunk) {
-      const std::size_t at = chunk == 0 ? 0 : list.ends[chunk * kBlocksAChunk - 1];
-      std::copy(found[chunk].begin(), found[chunk].end(), list.pairs.begin() + std::ptrdiff_t(at));
+      const std::size_t at = chunk == 0 || !filled ? 0 : list.ends[chunk * kBlocksAChunk - 1];
+      if (filled && !stop.requested())
+        std::copy(found[chunk].begin(), found[chunk].end(), list.pairs.data() + at);
       found[chunk] = {};
     }
   });
-  return true;
+  return filled && !stop.requested();
 }
 
 // Of few pairs few vertices need a record; else all that take part have one.
@@ -236,6 +246,7 @@ bool HeldCandidates::take(const BroadPhase& tree, const BroadPhaseInput& input, 
   }
   test_ = input.test;
   inflation_ = part_inflation(input, false), static_inflation_ = part_inflation(input, true);
+  tested_by_ = input.diagonals;
   list_vertices(input);
   map_.emplace(input.motion);
   held_ = true;

@@ -31,7 +31,8 @@ struct HeldPositions {
 };
 
 // Guarantee: streams exactly the pairs that a fresh tree would find, in the blocks of the tree that it was
-// made from (docs/theory.md, L50).
+// made from (docs/theory.md, L50). Pairs that were put to diagonals when they were taken serve calls that do
+// so, too.
 class HeldCandidates {
  public:
   // Holds the pairs of a tree that was made from `input`, whose inflation has room for change. Returns false,
@@ -42,7 +43,7 @@ class HeldCandidates {
   std::size_t size() const { return size_; }
 
   // Says whether no pair of `input` can be missing, if positions are `moved` from those of take() and of this
-  // magnitude at most.
+  // magnitude at most, and it lets so many be held.
   bool cover(const BroadPhaseInput& input, double moved, double magnitude) const;
   // Makes the boxes of `input`, which must be covered and outlive their use.
   void fit(const BroadPhaseInput& input, double magnitude, const Stop& stop);
@@ -56,7 +57,7 @@ class HeldCandidates {
  private:
   // The pairs of one kind, block after block; ends[i] is where block i ends.
   struct List {
-    std::vector<IdPair> pairs;
+    AlignedArray<IdPair> pairs;
     std::vector<std::size_t> ends;
     // By block: whether the primitives of a side are static; of two edges the first are not.
     std::vector<std::array<bool, 2>> is_static;
@@ -69,6 +70,7 @@ class HeldCandidates {
   std::size_t size_ = 0;
   BoxTest test_ = BoxTest::both_ends;
   double inflation_ = 0, static_inflation_ = 0;
+  DiagonalTest tested_by_;  // what the pairs have passed beside the boxes
   std::array<List, kPairKinds> lists_;
   // Of what may move and of what is static: the vertices with a record, and the records by id.
   std::array<std::vector<int>, 2> vertices_;

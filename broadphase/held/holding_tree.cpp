@@ -17,8 +17,11 @@ constexpr double kSlackOfChange = 2;
 constexpr double kMostSlack = 0.05;
 // Held pairs beyond this many a candidate cost more to test than a tree to traverse.
 constexpr std::size_t kMostHeldACandidate = 4, kFew = 4096;
-// Of what passes the boxes, diagonals leave about one in so many, and pairs are held without them.
+// Of what passes the boxes, diagonals leave about one in so many.
 constexpr std::size_t kBoxesACandidate = 3;
+// Pairs are put to diagonals before they are held if so many calls in a row have asked for them: steps do
+// not, and the calls of a loop that asks for both are served by one list.
+constexpr int kCallsAlike = 4;
 // After pairs were held that served no call, so many times as many calls pass before pairs are held again.
 constexpr int kLongestPause = 64;
 constexpr int kMostServed = 1 << 20;  // counted
@@ -44,6 +47,7 @@ class HoldingTree final : public BroadPhase {
     ready_ = tree_->ready();
     made_static_ = tree_->made_static_boxes();
     if (ready_) note_plain(input);
+    if (!input.diagonals.used) calls_alike_ = 0;
   }
 
   const char* name() const override { return uses_held_ ? "held" : tree_->name(); }
@@ -53,6 +57,10 @@ class HoldingTree final : public BroadPhase {
   void refit(const BroadPhaseInput& input, const Stop& stop) override {
     ready_ = uses_held_ = made_static_ = false;
     whole_ = input.t_max == 1;
+    if (!input.diagonals.used)
+      calls_alike_ = 0;
+    else if (whole_)
+      calls_alike_ = std::min(calls_alike_ + 1, kCallsAlike);
     double magnitude = 0;
     const double moved = eligible(input) ? positions_.moved(input, magnitude) : INFINITY;
     if (held_.cover(input, moved, magnitude)) {
@@ -133,15 +141,16 @@ class HoldingTree final : public BroadPhase {
   bool hold(const BroadPhaseInput& input, double moved, double magnitude, const Stop& stop) {
     BroadPhaseInput wide = input;
     const double by = slack(input, moved, magnitude);
-    wide.inflation += by;
-    wide.diagonals.used = false;  // what is held serves calls with and without them
+    wide.inflation += by, wide.diagonals.margin += by;
+    wide.diagonals.used = input.diagonals.used && calls_alike_ == kCallsAlike;
     refit_tree(wide, stop);
     if (!tree_->ready()) return false;
     std::size_t most = input.most_held;
     if (seen_blocks_ > 0) {
       std::size_t blocks = 0;
       for (const PairKind kind : wanted_kinds(input)) blocks += tree_->blocks(kind);
-      const double passed = double(seen_pairs_) * (input.diagonals.used ? double(kBoxesACandidate) : 1);
+      const bool leaves_them = input.diagonals.used && !wide.diagonals.used;
+      const double passed = double(seen_pairs_) * (leaves_them ? double(kBoxesACandidate) : 1);
       const double seen = passed / double(seen_blocks_) * double(blocks);
       most = std::min(most, std::size_t(kMostHeldACandidate * seen) + kFew);
     }
@@ -171,7 +180,8 @@ class HoldingTree final : public BroadPhase {
   bool uses_held_ = false, made_static_ = false;
   bool whole_ = true;         // whether the boxes are those of the whole step
   bool ended_early_ = false;  // whether the last call that looked at the earliest contact made its boxes anew
-  int served_ = 0;            // calls by what is held
+  int calls_alike_ = kCallsAlike;  // in a row, that put pairs to diagonals
+  int served_ = 0;                 // calls by what is held
   int pause_ = 0, pause_length_ = 1;
   mutable std::atomic<std::size_t> seen_pairs_{0}, seen_blocks_{0};
 };

@@ -128,9 +128,10 @@ struct Options {
 
   BroadPhaseMethod broad_phase = BroadPhaseMethod::automatic;
   // Whether the mesh may hold candidate pairs from one call to the next, at most 64 bytes a vertex, face and
-  // edge, and memory_limit, with up to 200 bytes a vertex for positions and boxes: where positions hardly
-  // change between calls, as in the iterations of a Newton solver, only these are then tested. The answer is
-  // the same bytes; Stats::broad_phase is "held". Mesh::release_memory gives the memory back.
+  // edge, and memory_limit, with up to 200 bytes a vertex for positions and boxes (330 where vertices are
+  // static): where positions hardly change between calls, as in the iterations of a Newton solver, only these
+  // are then tested. While they are taken, up to three times as much is in use. The answer is the same bytes;
+  // Stats::broad_phase is "held". Mesh::release_memory gives the memory back.
   bool hold_candidates = true;
   NarrowPhaseMethod narrow_phase = NarrowPhaseMethod::automatic;
   InstructionSet instruction_set = InstructionSet::automatic;

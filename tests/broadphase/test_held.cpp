@@ -106,6 +106,7 @@ int sequence(Moving& scene, InstructionSet instruction_set, BoxTest test, Random
   int held = 0;
   std::vector<Motion> motions;
   motions.reserve(64);
+  const bool alike = scenes::coin(random);  // the calls, which are then put to diagonals before they are held
   for (int call = 0; call < 14; ++call) {
     scene.jitter(call == 7 ? edge : step, random);
     if (call == 4 || call == 11) scene.move_statics(0.3 * edge);
@@ -118,7 +119,9 @@ int sequence(Moving& scene, InstructionSet instruction_set, BoxTest test, Random
     input.static_inflation = scene.is_static.empty() ? -1 : 0.5 * inflation;
     input.looks = Looks::at_all;
     input.most_held = kMany;
-    input.diagonals = {scenes::coin(random), Norm::euclidean, scenes::coin(random) ? 0 : 0.01 * edge};
+    input.diagonals = {alike ? call != 9 : scenes::coin(random),
+                       scenes::integer(random, 0, 19) == 0 ? Norm::maximum : Norm::euclidean,
+                       scenes::integer(random, 0, alike ? 9 : 1) == 0 ? 0 : 0.01 * edge};
     if (input.test == BoxTest::swept) input.diagonals.used = false;
     if (!tree)
       tree = make_holding_tree(input, {});
@@ -224,4 +227,22 @@ TEST_CASE("nothing is held where a call says so, pairs are too many, or position
   CHECK_FALSE(uses_held(1e-5, 10, Looks::at_all));
   CHECK_FALSE(uses_held(1e-5, 0, Looks::at_all));
   CHECK_FALSE(uses_held(0.1, kMany, Looks::at_all));
+}
+
+TEST_CASE("a call that lets fewer pairs be held than there are uses none", "[unit]") {
+  Random random(7);
+  Moving scene(scattered("some", 300, 0.1, 0.1, random), random, false);
+  const Motion motion = scene.motion();
+  BroadPhaseInput input{scene.mesh.data(), motion};
+  input.looks = Looks::at_all;
+  const auto named = [&](BroadPhase& tree, std::size_t most) {
+    input.most_held = most;
+    tree.refit(input, {});
+    check(tree, input);
+    return std::string(tree.name());
+  };
+  const auto tree = make_holding_tree(input, {});
+  CHECK(named(*tree, kMany) == "bvh");
+  CHECK(named(*tree, kMany) == "held");
+  CHECK(named(*tree, 10) == "bvh");
 }
