@@ -1,6 +1,6 @@
 #!/bin/sh
 # Measures speed and memory and writes the tables of docs/performance.md and docs/scaling.md again.
-#   measure-performance.sh [quick] [PART ...]     parts: ipctk, candidates, peers, threads, size, huge, profile, memory,
+#   measure-performance.sh [quick] [PART ...]     parts: ipctk, candidates, peers, loop, threads, size, huge, profile, memory,
 #                                                 traffic, serial; default: all
 # quick: one small scene, few repeats, to try the script; writes into build/performance-quick/ instead.
 # Needs ONSET_DATA, the folder of the real data. About half an hour on 2 cores and 16 GiB; nothing else should run meanwhile.
@@ -13,15 +13,15 @@ bench="$root/apps/bench/scripts"
 : "${ONSET_DATA:?the folder that holds scenes/}"
 
 documents="$root/docs"
-repeats=3 rounds=15 every=60 largest=10000000 refine=4 seconds=4 limit=40 memory=10 factor=10 rounds_of_peers=15 mib=256 scenes='*'
+repeats=3 rounds=15 every=60 largest=10000000 refine=4 seconds=4 limit=40 memory=10 factor=10 rounds_of_peers=15 mib=256 calls=15 repeats_small=60 scenes='*'
 if [ "${1:-}" = quick ]; then
   shift
   out="$build/performance-quick"
-  repeats=1 rounds=2 every=600 largest=10000 refine=1 seconds=1 limit=2 memory=1 factor=0.1 rounds_of_peers=1 mib=16 scenes='cloth-funnel'
+  repeats=1 rounds=2 every=600 largest=10000 refine=1 seconds=1 limit=2 memory=1 factor=0.1 rounds_of_peers=1 mib=16 calls=5 repeats_small=3 scenes='cloth-funnel'
   mkdir -p "$out" && cp "$documents/performance.md" "$documents/scaling.md" "$out"
   documents=$out
 fi
-[ $# -gt 0 ] || { rm -f "$out/load"; set -- ipctk candidates peers threads size huge profile memory traffic serial; }
+[ $# -gt 0 ] || { rm -f "$out/load"; set -- ipctk candidates peers loop threads size huge profile memory traffic serial; }
 
 "$root/scripts/install-packages.sh" library apps peers
 { command -v perf && command -v valgrind; } >/dev/null || "$root/scripts/install-packages.sh" profile
@@ -65,7 +65,9 @@ measure() {  # part, scenes
         printf '```\n\n'
       done ;;
     threads)
-      python two_threads.py --server "$server" "$@" --rounds "$rounds" ;;
+      python two_threads.py --server "$server" --onset "$build/apps/onset" "$@" --rounds "$rounds" --repeats "$repeats_small" ;;
+    loop)
+      python newton_loop.py --onset "$build/apps/onset" "$@" --calls "$calls" ;;
     size)
       python size_curve.py --onset "$build/apps/onset" --largest "$largest" --refine "$refine" ;;
     huge)

@@ -110,7 +110,7 @@ class Plots(AppTest):
         self.assertEqual((self.folder / "out.gif").read_bytes()[:6], b"GIF89a")
 
     def test_gears(self):
-        self.script(SCRIPTS / "draw_gears.py", "gears.png")
+        self.script(APPS / "simulation" / "draw_gears.py", "gears.png")
         self.assertEqual((self.folder / "gears.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
     def test_no_script_is_left_out(self):

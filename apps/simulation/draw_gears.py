@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """docs/images/gears.png: two gears that run in each other, and where linear paths of their vertices would be.
 
-    apps/bench/scripts/draw_gears.py [PNG]
+    apps/simulation/draw_gears.py [PNG]
 
 The gears are those of tests/trajectory/gears.hpp; matplotlib is that of PyPI.
 """
