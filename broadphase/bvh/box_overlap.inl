@@ -40,6 +40,16 @@ inline int touching(const float* box, int stride, const float* block, int rounde
   return lanes;
 }
 
+// Sets all bits of the lanes that share a vertex. The vertices of `own` are kBlock apart.
+template <int kOwn, int kOther>
+__attribute__((always_inline)) inline I8 sharing(const int* own, const int* others) {
+  I8 shared = I8::all(own[0]) == I8::load(others);
+  for (int j = 0; j < kOwn; ++j)
+    for (int k = j == 0; k < kOther; ++k)
+      shared = shared | (I8::all(own[j * kBlock]) == I8::load(others + k * kBlock));
+  return shared;
+}
+
 // The `overlap` of motion boxes, and the smallest overlap at the start and at the end.
 struct Reach {
   F8 at_both, at_start, at_end;

@@ -10,7 +10,7 @@ namespace onset {
 
 namespace {
 
-constexpr std::size_t kGrain = 512, kSpanFloats = 32;
+constexpr std::size_t kGrain = 512;
 
 int vertices_each(Primitive kind) { return kind == Primitive::vertex ? 1 : kind == Primitive::edge ? 2 : 3; }
 
@@ -108,7 +108,7 @@ void BoxTree::lay_out(bool motion) {
   view_.vertices = names_.empty() ? vertices_.data() : names_.data();
   view_.diagonals = {diagonals_ != nullptr ? diagonals_->records.data() : nullptr, vertices_.data()};
   const bool spans = diagonals_ != nullptr && kind_ == Primitive::edge;
-  if (const std::size_t floats = spans ? blocks() * kSpanFloats : 0; spans_.size() < floats)
+  if (const std::size_t floats = spans ? blocks() * std::size_t(kSpanStride) : 0; spans_.size() < floats)
     spans_ = AlignedArray<float>(floats);
   view_.spans = spans ? spans_.data() : nullptr;
   view_.keys = keys_.empty() ? nullptr : keys_.data();

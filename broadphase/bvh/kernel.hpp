@@ -35,8 +35,8 @@ struct TreeView {
   const int* vertices;
   // Its records are null where no diagonals are tested.
   DiagonalPlaces diagonals;
-  // Of edges, where diagonals are tested: how far each leaf block extends along them, 32 floats (BlockSpan).
-  // Else null.
+  // Of edges, where diagonals are tested: how far each leaf block extends along them, kSpanStride
+  // floats. Else null.
   float* spans;
   // These are null unless keys are compared (scene/primitive_filter.hpp).
   // The PrimitiveKey::body that all of a lane shares, or 0; eight a block.

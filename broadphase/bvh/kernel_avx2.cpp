@@ -1,5 +1,4 @@
 // The kernel text for AVX2; compiled with -mavx2, entered only where the processor has it.
 #define ONSET_ISA bvh_avx2
-#include "broadphase/bvh/block_span.inl"
 #include "broadphase/bvh/fit.inl"
 #include "broadphase/bvh/traversal.inl"

@@ -1,5 +1,4 @@
 // The kernel text for any processor.
 #define ONSET_ISA bvh_scalar
-#include "broadphase/bvh/block_span.inl"
 #include "broadphase/bvh/fit.inl"
 #include "broadphase/bvh/traversal.inl"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/simd/pairs.hpp"
-#include "broadphase/bvh/block_span.inl"
 #include "broadphase/bvh/box_overlap.inl"
+#include "broadphase/diagonals/blocks.inl"
 #include "broadphase/diagonals/test.inl"
 
 namespace onset {
@@ -134,7 +134,7 @@ class Traversal {
   // Finds the children of block a that meet the box of block b.
   void split(int level) {
     if (kEdges && level == 0 && tests_diagonals())
-      drop_separated_blocks(t_.query, t_.tree, *t_.diagonals, blocks_[0]);
+      drop_separated_blocks(t_.query.spans, t_.tree.spans, *t_.diagonals, blocks_[0]);
     const Pairs& from = blocks_[level];
     for (int e = 0; e < from.count; ++e) {
       const int a = from.a[e], b = from.b[e];
@@ -173,8 +173,8 @@ class Traversal {
   __attribute__((always_inline)) int passing(const Leaves& query, const Leaves& tree, unsigned c, unsigned b,
                                              Reach& r) const {
     r = reach_of(query.box(c), kLanes, tree.block(b));
-    I8 shared = sharing(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
-                        tree.vertices + std::size_t(b) * (kOther * kBlock));
+    I8 shared = sharing<kOwn, kOther>(query.vertices + std::size_t(c / kBlock) * (kOwn * kBlock) + c % kBlock,
+                                      tree.vertices + std::size_t(b) * (kOther * kBlock));
     if (kKeyed) shared = shared | apart(c, b);
     const int mask = ~sign_bits(bits_of(r.at_both) | shared) & 0xff & unpaired(c, b);
     return kKeyed ? without_excluded(mask, c, b) : mask;
@@ -263,15 +263,6 @@ class Traversal {
       left += !verdict.apart();
     }
     doubtful_.count = left;
-  }
-
-  // Sets all bits of the lanes that share a vertex. The vertices of `own` are kBlock apart.
-  __attribute__((always_inline)) static I8 sharing(const int* own, const int* others) {
-    I8 shared = I8::all(own[0]) == I8::load(others);
-    for (int j = 0; j < kOwn; ++j)
-      for (int k = j == 0; k < kOther; ++k)
-        shared = shared | (I8::all(own[j * kBlock]) == I8::load(others + k * kBlock));
-    return shared;
   }
 
   const int* key_of(unsigned slot) const {
