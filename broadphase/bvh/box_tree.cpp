@@ -85,7 +85,7 @@ void BoxTree::make_keys(const MeshData& mesh, const Stop& stop) {
   } while (levels < 3 || used > kBlock);
 }
 
-void BoxTree::lay_out(bool motion) {
+void BoxTree::lay_out(bool motion, bool in_space) {
   std::size_t total = 0, level = blocks();
   view_.levels = 0;
   do {
@@ -107,7 +107,7 @@ void BoxTree::lay_out(bool motion) {
   view_.ids = ids_.data();
   view_.vertices = names_.empty() ? vertices_.data() : names_.data();
   view_.diagonals = {diagonals_ != nullptr ? diagonals_->records.data() : nullptr, vertices_.data()};
-  const bool spans = diagonals_ != nullptr && kind_ == Primitive::edge;
+  const bool spans = diagonals_ != nullptr && kind_ == Primitive::edge && in_space;
   if (const std::size_t floats = spans ? blocks() * std::size_t(kSpanStride) : 0; spans_.size() < floats)
     spans_ = AlignedArray<float>(floats);
   view_.spans = spans ? spans_.data() : nullptr;
@@ -132,7 +132,7 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
   if (stop.requested()) return;
   const Supports& supports = own ? mine : vertices;
   rounded_axes_ = supports.rounded_axes;
-  lay_out(motion);
+  lay_out(motion, input.mesh.dimension == 3);
   const FitArguments fit{view_, motion, supports.records.data(), own ? places.data() : vertices_.data(),
                          own ? 1 : vertices_each(kind_)};
   parallel_ranges(blocks(), kGrain, [&](std::size_t first, std::size_t last) {

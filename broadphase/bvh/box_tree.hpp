@@ -56,7 +56,7 @@ class BoxTree {
  private:
   std::size_t blocks() const { return ids_.size() / kBlock; }
   float reach(int row) const;  // a support of the union of all boxes
-  void lay_out(bool motion);
+  void lay_out(bool motion, bool in_space);
   void list_vertices(const MeshData& mesh, const VertexOrder& order, bool alone, const Stop& stop);
   void make_keys(const MeshData& mesh, const Stop& stop);
   // Lists the ids in use, and for each slot the place of its id in that list, or its end.

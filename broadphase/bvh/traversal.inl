@@ -240,8 +240,10 @@ class Traversal {
         const F8 reach = diagonals.reach(own, b, lane);
         const DiagonalVerdict verdict = diagonals.test(reach);
         const int y = second_ids[b * kBlock + lane];
-        if (verdict.in_doubt() && t_.diagonals_apart(t_.context, x, y, diagonals.open(c, b, lane, reach)))
-          continue;
+        if (verdict.in_doubt()) {
+          const unsigned open = diagonals.open(c, b, lane, reach);
+          if (open != 0 && t_.diagonals_apart(t_.context, x, y, open)) continue;
+        }
         out->a = kEdges && y < x ? y : x, out->b = kEdges && y < x ? x : y;
         out += !verdict.apart();
       }

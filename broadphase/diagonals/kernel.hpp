@@ -14,7 +14,7 @@ inline constexpr int kSpanStride = 32;
 inline constexpr float kFarOut = 0x1p100f;
 // So far out, the sum of the magnitudes of its coordinates; and at t = 1, where only the motion up to a
 // t_max < 1 matters.
-inline constexpr double kFarthest = 0x1p10, kFarthestEnd = 0x1p12;
+inline constexpr double kFarthest = 0x1p6, kFarthestEnd = 0x1p12;
 
 // Maps x to (x - centre) * scale, a power of two.
 struct LinearMap {

@@ -39,15 +39,15 @@ void DiagonalRecords::write(const BroadPhaseInput& input, double t_max, const Li
       });
 }
 
-// In the unit of the map, let M <= 2^10 be the largest magnitude of a vertex that is not far out, and C that
+// In the unit of the map, let M <= 64 be the largest magnitude of a vertex that is not far out, and C that
 // of the centre. A place is rounded to float once, by 2^-24 M, and once more is the difference of two, of up
-// to 2M: 2^-22 M together. Roundings in double, of places and of the definition, are below 2^-34. With t_max
+// to 2M: 2^-22 M together. Roundings in double, of places and of the definition, are below 2^-39. With t_max
 // < 1 ends are intervals, and a coordinate there is within 2^-50 (C + 2^12) of any value that it has here or
 // in the definition: 2^-44 (C + 2^12) covers 12 of them (docs/theory.md, L53).
 DiagonalLimits diagonal_limits(const BroadPhaseInput& input, double inflations, const DiagonalRecords& a,
                                const DiagonalRecords& b) {
   const double largest = std::max(a.range.largest, b.range.largest);
-  double error = 0x1p-22 * (1 + 0x1p-10) * largest + 0x1p-32;
+  double error = 0x1p-22 * (1 + 0x1p-10) * largest + 0x1p-36;
   if (input.t_max != 1) {
     double offset = 0;
     for (const double c : a.map.centre) offset += std::fabs(c) * a.map.scale;

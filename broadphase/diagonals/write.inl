@@ -61,9 +61,9 @@ class DiagonalWriter {
       at[0][half] = mapped(start), at[1][half] = mapped(end);
       const D4 magnitude = max(at[0][half].magnitude(), at[1][half].magnitude());
       const D4 also = max(at[1][half].magnitude(), at[0][half].magnitude());  // where one is no number
-      near |= (ends_near & bits((magnitude <= D4::all(kFarthest)) & (also <= D4::all(kFarthest))))
-              << 4 * half;
-      largest_ = max(magnitude, largest_);
+      const auto is_near = (magnitude <= D4::all(kFarthest)) & (also <= D4::all(kFarthest));
+      near |= (ends_near & bits(is_near)) << 4 * half;
+      largest_ = max(select(is_near, magnitude, D4::all(0)), largest_);
     }
     for (int end = 0; end < 2; ++end) {
       F8 place[8];
@@ -81,7 +81,7 @@ class DiagonalWriter {
 
   DiagonalRange range() const {
     double lanes[4], largest = 0;
-    min(largest_, D4::all(kFarthest)).store(lanes);
+    largest_.store(lanes);
     for (const double x : lanes) largest = x > largest ? x : largest;
     return {largest, far_out_};
   }

@@ -31,8 +31,8 @@ struct HeldPositions {
 };
 
 // Guarantee: streams exactly the pairs that a fresh tree would find, in the blocks of the tree that it was
-// made from (docs/theory.md, L50). Pairs that were put to diagonals when they were taken serve calls that do
-// so, too.
+// made from (docs/theory.md, L50). Pairs that were put to diagonals when they were taken serve such
+// calls alone.
 class HeldCandidates {
  public:
   // Holds the pairs of a tree that was made from `input`, whose inflation has room for change. Returns false,

@@ -19,7 +19,7 @@ constexpr double kMostSlack = 0.05;
 constexpr std::size_t kMostHeldACandidate = 4, kFew = 4096;
 // Of what passes the boxes, diagonals leave about one in so many.
 constexpr std::size_t kBoxesACandidate = 3;
-// Pairs are put to diagonals before they are held if so many calls in a row have asked for them: steps do
+// Pairs are put to diagonals before they are held if the last so many calls all asked for them: steps do
 // not, and the calls of a loop that asks for both are served by one list.
 constexpr int kCallsAlike = 4;
 // After pairs were held that served no call, so many times as many calls pass before pairs are held again.

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "broadphase/diagonals.hpp"
+#include "broadphase/diagonals/records.hpp"
 #include "tests/broadphase/candidates.hpp"
 #include "tests/broadphase/soups.hpp"
 #include "tests/catch.hpp"
@@ -155,6 +156,31 @@ TEST_CASE("what diagonals drop is farther apart than its inflations, and nothing
         }
   }
   CHECK(dropped > 2000);
+}
+
+TEST_CASE("a vertex far out does not blur the places of the others", "[unit]") {
+  scenes::Random random(32);
+  Soup soup = scattered("scattered", 16, 0.4, 0.3, random);
+  const auto range = [&](InstructionSet set) {
+    const Motion motion = soup.motion();
+    BroadPhaseInput input{soup.mesh, motion};
+    input.instruction_set = set;
+    std::vector<int> ids(std::size_t(soup.mesh.num_vertices));
+    std::iota(ids.begin(), ids.end(), 0);
+    DiagonalRecords records;
+    records.write(input, 1, LinearMap{{0, 0, 0}, 1}, ids.data(), ids.size(), ids.size(), false);
+    return records.range;
+  };
+  for (const InstructionSet set : {InstructionSet::scalar, InstructionSet::automatic}) {
+    soup.x_t0[0] = 0;
+    const DiagonalRange near = range(set);
+    CHECK_FALSE(near.far_out);
+    soup.x_t0[0] = 1e6;
+    const DiagonalRange far = range(set);
+    CHECK(far.far_out);
+    CHECK(far.largest <= near.largest);
+    CHECK(far.largest > 0.5);
+  }
 }
 
 TEST_CASE("diagonals drop the same in a plane", "[oracle]") {
