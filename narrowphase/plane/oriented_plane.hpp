@@ -53,7 +53,7 @@ struct PlaneSpan {
   // and four times what storing can change, during the whole motion. Neither NaN nor infinities do.
   bool stays_beyond(const OrientedPlane& n, double separation, double kept) const {
     const double least = separation * n.norm + error;
-    return start > least && end - kept * start > least;
+    return start > least && end - kept * start > least && start < INFINITY && end < INFINITY;
   }
 };
 
@@ -65,22 +65,26 @@ struct PlaneTimes {
   PlaneTimes(const PlaneSpan& s, const OrientedPlane& n, double separation, double kept) {
     const double least = separation * n.norm + s.error, share = kept * s.start;
     const double most = separation * n.norm_below - s.error;
-    contact_from = above_until(s.start - least, s.end - least, 1 - 0x1p-49);
-    stored_from = above_until((s.start - share) - least, (s.end - share) - least, 1 - 0x1p-49);
+    contact_from = above_until(s.start - least, s.end - least);
+    stored_from = above_until((s.start - share) - least, (s.end - share) - least);
     if (!(s.start > least) || !(s.end < most)) return;
     const double share_below = kept * (s.start - least);
-    contact_by = above_until(s.start - most, s.end - most, 1 + 0x1p-49);
-    stored_by = above_until((s.start - most) - share_below, (s.end - most) - share_below, 1 + 0x1p-49);
+    contact_by = below_from(s.start - most, s.end - most);
+    stored_by = below_from((s.start - most) - share_below, (s.end - most) - share_below);
   }
 
  private:
-  // The root of the line from a at 0 to b at 1, times `factor`; 0 where it does not begin above 0 or is not a
-  // number, infinite where it stays there. The quotient errs by 3u.
-  static double above_until(double a, double b, double factor) {
-    if (!(a > 0)) return 0;
+  // Bounds of the root of the line from a at 0 to b at 1; the quotient errs by 3u. A number that is infinite,
+  // or none, tells nothing: 0 is no later than any time, and infinity no earlier.
+  static double above_until(double a, double b) {
+    if (!(a > 0) || !(std::max(a, b) < INFINITY)) return 0;
     if (b > 0) return INFINITY;
-    const double t = a / (a - b) * factor;
+    const double t = a / (a - b) * (1 - 0x1p-49);
     return t > 0 ? t : 0;
+  }
+  static double below_from(double a, double b) {
+    if (!(a > 0) || !(b <= 0) || !(a - b < INFINITY)) return INFINITY;
+    return a / (a - b) * (1 + 0x1p-49);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace onset::tests {
 namespace {
@@ -73,6 +74,13 @@ double random_height(double size, double separation, Random& random) {
   }
 }
 
+// x with components a little below 2^1020.
+Eigen::RowVector3d farthest(Random& random) {
+  Eigen::RowVector3d x;
+  for (int a = 0; a < 3; ++a) x[a] = 0x1p1020 * (1 - scenes::integer(random, 0, 100000) * 0x1p-53);
+  return x;
+}
+
 bool usable(const Eigen::RowVector3d& x) { return x.cwiseAbs().maxCoeff() <= 0x1p1020; }
 
 }  // namespace
@@ -111,6 +119,27 @@ PlaneScene random_plane_scene(Random& random, bool plain) {
     if (!usable(x0) || !usable(x1)) continue;
     s.x_t0.row(v) = x0, s.x_t1.row(v) = x1;
     ++v;
+  }
+  return s;
+}
+
+PlaneScene plane_scene_at_the_largest_numbers(Random& random) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  PlaneScene s;
+  s.options.threads = 1;
+  s.options.norm = scenes::coin(random) ? Norm::maximum : Norm::euclidean;
+  s.options.min_separation = 0x1p1020 * (scenes::coin(random) ? 1 : scenes::unit(random));
+  Plane plane;
+  for (double& n : plane.normal)
+    n = scenes::coin(random) ? std::nextafter(2.0, 0.0) : 1 + scenes::unit(random);
+  const Eigen::RowVector3d x = farthest(random);
+  const double f = plane.normal[0] * x[0] + plane.normal[1] * x[1] + plane.normal[2] * x[2];
+  plane.offset = -(kMost - f + scenes::integer(random, -1, 1) * 0x1p971);
+  s.rules.planes.push_back(plane);
+  s.x_t0.resize(4, 3), s.x_t1.resize(4, 3);
+  for (int v = 0; v < 4; ++v) {
+    s.x_t0.row(v) = v == 0 ? x : scenes::uniform(random, 0, 1) * x;
+    s.x_t1.row(v) = (scenes::integer(random, 0, 3) == 0 ? scenes::uniform(random, -1, 1) : -1.0) * x;
   }
   return s;
 }

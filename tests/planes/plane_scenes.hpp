@@ -18,4 +18,7 @@ struct PlaneScene {
 // `plain`: sizes about 1, as simulators have them.
 PlaneScene random_plane_scene(scenes::Random& random, bool plain);
 
+// Positions up to 2^1020, the first of which have a height about the largest double.
+PlaneScene plane_scene_at_the_largest_numbers(scenes::Random& random);
+
 }  // namespace onset::tests

@@ -198,6 +198,45 @@ TEST_CASE("steps towards planes are free, exactly and as stored", "[planes][orac
   }
 }
 
+// Positions as large as they may be, before a plane that is as far as doubles go: n.x - offset overflows, or
+// just does not.
+TEST_CASE("steps towards planes are free where heights overflow", "[planes][oracle]") {
+  Random random(oracle::fuzz_seed() * 1000 + 77);
+  Counts counts;
+  int infinite = 0;
+  for (int i = 0; i < oracle::fuzz(500); ++i) {
+    const PlaneScene s = plane_scene_at_the_largest_numbers(random);
+    const std::vector<Case> cases = cases_of(s);
+    const Plane& n = s.rules.planes[0];
+    const Eigen::RowVector3d x = s.x_t0.row(0);
+    infinite += std::isinf(n.normal[0] * x[0] + n.normal[1] * x[1] + n.normal[2] * x[2] - n.offset);
+    check_set(s, cases, counts);
+    const StepResult r = compute_collision_free_stepsize(s.mesh(), s.x_t0, s.x_t1, s.options);
+    check_step(r, cases, random, counts);
+    check_first(r, cases, construct_active_set(s.mesh(), s.x_t0, s.x_t1, s.options));
+  }
+  std::printf("largest numbers: %lld steps, %lld of 0, %d from infinity, %lld promises broken\n",
+              counts.steps, counts.stopped, infinite, counts.broken);
+  CHECK(counts.broken == 0);
+  CHECK(infinite > counts.steps / 8);
+}
+
+TEST_CASE("a vertex whose height overflows hides no other that comes within the separation first",
+          "[planes][property]") {
+  PlaneScene s;
+  const double n = std::nextafter(2.0, 0.0);
+  s.rules.planes.push_back({{n, n, n}, -0x1.4000000003512p+1023});
+  s.options.norm = Norm::maximum, s.options.min_separation = 0x1p1020;
+  const Eigen::RowVector3d x(0x1.fffffffffe532p+1019, 0x1.fffffffff5c6fp+1019, 0x1.fffffffff15ccp+1019);
+  s.x_t0.resize(2, 3), s.x_t1.resize(2, 3);
+  s.x_t0 << x, 0.5 * x;
+  s.x_t1 << -x, -x;
+  const StepResult r = compute_collision_free_stepsize(s.mesh(), s.x_t0, s.x_t1, s.options);
+  check_first(r, cases_of(s), construct_active_set(s.mesh(), s.x_t0, s.x_t1, s.options));
+  REQUIRE(r.limiting);
+  CHECK((r.limiting->a == 1 && r.toi > 0.77 && r.toi < 0.78));
+}
+
 TEST_CASE("a line search keeps a share of what vertices have above planes", "[planes][oracle]") {
   Random random(oracle::fuzz_seed() * 1000 + 75);
   Counts counts;
