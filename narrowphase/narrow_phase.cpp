@@ -103,11 +103,10 @@ void NarrowPhase::gather_separations(PairKind kind, const IdPair* pairs, std::si
     return;
   }
   if (in_.mesh.thickness.empty()) return;
-  for (std::size_t i = 0; i < count; ++i) {  // two sums: rounded up
+  for (std::size_t i = 0; i < count; ++i) {
     const int* v = &scratch.vertices[4 * i];
-    scratch.separation[i] = (in_.options.min_separation + thickest(in_.mesh, v, v + first_side) +
-                             thickest(in_.mesh, v + first_side, v + 4)) *
-                            (1 + 0x1p-51);
+    scratch.separation[i] = with_thickness(in_.options.min_separation, thickest(in_.mesh, v, v + first_side),
+                                           thickest(in_.mesh, v + first_side, v + 4));
   }
 }
 

@@ -28,13 +28,13 @@ double largest_of_bodies(const MeshData& mesh, const Options& options) {
   return r;
 }
 
-// Two sums, for whose rounding the factor is more than enough; where nothing is added the value is exact.
+// Where nothing is added the value is exact.
 double separation_of_pair(const MeshData& mesh, const Options& options, const RestLimits* rest, PairKind kind,
                           IdPair pair, const int* v) {
   const int side = points_of_first_side(kind);
   double r = mesh.body_separations.empty() ? options.min_separation : of_bodies(mesh, options, v[0], v[side]);
   if (!mesh.thickness.empty())
-    r = (r + thickest(mesh, v, v + side) + thickest(mesh, v + side, v + 4)) * (1 + 0x1p-51);
+    r = with_thickness(r, thickest(mesh, v, v + side), thickest(mesh, v + side, v + 4));
   return rest ? std::min(r, rest->of(kind, pair)) : r;
 }
 

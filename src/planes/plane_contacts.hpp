@@ -1,26 +1,17 @@
 // Every vertex against every plane: what limits a step, and the contacts of an active set.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "narrowphase/plane/plane_decision.hpp"
 #include "onset/mesh.hpp"
+#include "scene/pairs/separation.hpp"
 #include "src/shared/budget.hpp"
 #include "src/shared/pair_traversal.hpp"
 
 namespace onset {
-
-// What a vertex must keep from a plane: min_separation plus its thickness, rounded up to a double. The
-// rounding error of the sum is a double, which is found exactly.
-inline double separation_from_planes(const MeshData& mesh, const Options& options, int vertex) {
-  if (mesh.thickness.empty()) return options.min_separation;
-  const double a = options.min_separation, b = mesh.thickness[std::size_t(vertex)], sum = a + b;
-  const double of_b = sum - a, error = (a - (sum - of_b)) + (b - of_b);
-  return error > 0 ? std::nextafter(sum, std::numeric_limits<double>::infinity()) : sum;
-}
 
 struct PlaneInput {
   const MeshData& mesh;

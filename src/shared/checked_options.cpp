@@ -60,7 +60,7 @@ void check_gap_share(double gap_share) { in_float_environment(check_share, gap_s
 double largest_separation(const MeshData& mesh, const Options& options) {
   const double of_bodies = largest_of_bodies(mesh, options);
   if (!has_thickness(mesh)) return of_bodies;
-  return (of_bodies + 2 * thickest(mesh)) * (1 + 0x1p-51);
+  return with_thickness(of_bodies, thickest(mesh), thickest(mesh));
 }
 
 double absolute_tolerance(const Options& options, double extent) {

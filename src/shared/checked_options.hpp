@@ -16,7 +16,7 @@ ONSET_API void check(const Options& options);
 // Does the same for the share of a gap to keep.
 ONSET_API void check_gap_share(double gap_share);
 
-// Returns the distance, rounded up, that the thickest pair must keep.
+// Returns the distance, rounded up, that the thickest pair must keep: no less than separation_of_pair of any.
 double largest_separation(const MeshData& mesh, const Options& options);
 
 // Returns Options::tolerance, or the relative one times `extent`; always > 0 and finite.

@@ -11,6 +11,7 @@
 #include "narrowphase/plane/plane_decision.hpp"
 #include "scene/motion/motion.hpp"
 #include "scene/pair_source.hpp"
+#include "scene/pairs/separation.hpp"
 #include "src/planes/plane_blocks.hpp"
 #include "src/shared/visit_pairs.hpp"
 
@@ -32,17 +33,13 @@ void check_reach(double d_hat, bool zero_allowed) {
 
 double euclidean_separation(const Mesh& mesh, const Options& options, const RestLimits* rest,
                             const Pair& pair) {
-  const int* v = pair.vertices.data();
-  if (has_pair_separations(mesh.data()) && pair.kind != PairKind::vertex_plane) {
-    const double own = separation_of_pair(mesh.data(), options, rest, pair.kind, {pair.a, pair.b}, v);
-    return norm_ratio(options) == 1 ? own : norm_ratio(options) * own * (1 + 0x1p-50);
-  }
-  const int side = pair.kind == PairKind::edge_edge ? 2 : 1,
-            all = pair.kind == PairKind::vertex_plane ? 1 : 4;
-  const double thickness = thickest(mesh.data(), v, v + side) + thickest(mesh.data(), v + side, v + all);
+  const MeshData& data = mesh.data();
+  const double own =
+      pair.kind == PairKind::vertex_plane
+          ? separation_from_planes(data, options, pair.a)
+          : separation_of_pair(data, options, rest, pair.kind, {pair.a, pair.b}, pair.vertices.data());
   const double ratio = norm_ratio(options);
-  if (ratio == 1 && thickness == 0) return options.min_separation;
-  return ratio * (options.min_separation + thickness) * (1 + 0x1p-50);
+  return ratio == 1 ? own : ratio * own * (1 + 0x1p-50);
 }
 
 ClosePair pair_with_plane(const Mesh& mesh, const Options& options, int vertex, int plane) {

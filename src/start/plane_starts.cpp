@@ -1,6 +1,7 @@
 #include "src/start/plane_starts.hpp"
 
-#include "src/planes/plane_contacts.hpp"
+#include "narrowphase/plane/plane_decision.hpp"
+#include "scene/pairs/separation.hpp"
 #include "src/shared/close_set.hpp"
 
 namespace onset {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "narrowphase/plane/plane_decision.hpp"
-#include "src/planes/plane_contacts.hpp"
+#include "scene/pairs/separation.hpp"
 
 namespace onset {
 
