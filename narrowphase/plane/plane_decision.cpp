@@ -214,6 +214,10 @@ PlaneStart start_at_plane(const OrientedPlane& plane, const PlaneQuestion& q) {
   });
 }
 
+int sign_of_motion(const PlaneQuestion& q) {
+  return of_exact(q, 0, [](const auto& exact) { return exact.sign_of_motion(); });
+}
+
 PlaneGeometry geometry_at_plane(const OrientedPlane& plane, const PlaneQuestion& q, double t) {
   return of_exact(q, t, [&](const auto& exact) -> PlaneGeometry {
     return {std::max(0.0, over_length(exact.value_at(t), plane)), over_length(exact.motion(), plane)};

@@ -42,6 +42,9 @@ inline double below_plane_distance(double distance) {
 }
 PlaneStart start_at_plane(const OrientedPlane& plane, const PlaneQuestion& question);
 
+// Returns the sign of how n.x - offset changes in the whole motion, exactly.
+int sign_of_motion(const PlaneQuestion& question);
+
 // At time t in [0, 1]: the distance as above, and how much it grows in the whole step where the vertex is in
 // front of the plane (< 0: the vertex comes closer), relatively to within 2^-49 too.
 struct PlaneGeometry {

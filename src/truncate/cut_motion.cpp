@@ -62,7 +62,7 @@ class Cutting {
       const PlaneLimits::Heights heights = heights_of(*e);
       const double kept = roundings * heights.rounding;
       const double from = heights.start - kept, to = heights.end - kept;
-      if (to >= 0) continue;
+      if (!(to < 0)) continue;
       const double s = from > 0 ? from / (from - to) * (1 - 0x1p-50) : 0;
       if (s < cut.share) cut = {s, int(e->limit)};
     }

@@ -1,6 +1,7 @@
 #include "src/truncate/plane_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "narrowphase/plane/plane_decision.hpp"
 #include "scene/pairs/separation.hpp"
@@ -24,8 +25,7 @@ Gathered<MotionLimit> PlaneLimits::find(std::size_t most, Budget& budget) const 
         limit.pair = {PairKind::vertex_plane, v, block.row, {v, -1, -1, -1}};
         limit.touches = start.touches, limit.has_plane = !start.touches, limit.starts_within = start.within;
         const double least = d * n.norm;
-        limit.plane.first = start.within ? span.start + PlaneSpan(n, x0, x0).error
-                                         : least + options_.gap_share * (span.start - least);
+        limit.plane.first = std::min(span.start, least + options_.gap_share * (span.start - least));
         found.push_back(limit);
       },
       [](const MotionLimit& limit) {
@@ -33,11 +33,21 @@ Gathered<MotionLimit> PlaneLimits::find(std::size_t most, Budget& budget) const 
       });
 }
 
+// Where two heights differ by no more than their errors, integers decide.
+bool PlaneLimits::comes_no_closer(const MotionLimit& limit, const double* x) const {
+  const OrientedPlane& n = blocks_.planes()[std::size_t(limit.pair.b)];
+  const double* x0 = motion_.t0(limit.pair.a);
+  const PlaneSpan span(n, x0, x);
+  const double rise = span.end - span.start;
+  if (std::fabs(rise) > 2 * span.error && std::fabs(rise) < INFINITY) return rise > 0;
+  return sign_of_motion(question_of(n, x0, x, 0, false)) >= 0;
+}
+
 // A height within its error of what it is to be decides nothing about the separation: integers do.
 bool PlaneLimits::keeps(const MotionLimit& limit, const double* x) const {
   const OrientedPlane& n = blocks_.planes()[std::size_t(limit.pair.b)];
+  if (limit.starts_within) return comes_no_closer(limit, x);
   const PlaneSpan span(n, x, x);
-  if (limit.starts_within) return span.start - span.error >= limit.plane.first;
   if (!(span.start >= limit.plane.first)) return false;
   const double d = separation(limit.pair.a);
   if (span.stays_beyond(n, d, 0)) return true;
@@ -45,6 +55,7 @@ bool PlaneLimits::keeps(const MotionLimit& limit, const double* x) const {
 }
 
 PlaneLimits::Heights PlaneLimits::heights(const MotionLimit& limit) const {
+  if (limit.starts_within) return {0, comes_no_closer(limit, motion_.t1(limit.pair.a)) ? 0.0 : -1.0, 0};
   const PlaneSpan span(blocks_.planes()[std::size_t(limit.pair.b)], motion_.t0(limit.pair.a),
                        motion_.t1(limit.pair.a));
   return {span.start - limit.plane.first, span.end - limit.plane.first, span.error};

@@ -14,15 +14,15 @@ class PlaneLimits {
       : mesh_(mesh), motion_(motion), options_(options), blocks_(mesh, motion.axes, options.norm) {}
 
   // Finds the vertices that do not certainly go all their way. Of their limits, plane.first is the height to
-  // keep, an approximation but where the vertex starts within its separation: none is then lost.
+  // keep, an approximation. One that starts within its separation keeps its own instead.
   Gathered<MotionLimit> find(std::size_t most, Budget& budget) const;
 
   // Says, exactly, whether a vertex that is stored at x keeps its separation, and nearly, whether the height
-  // of its limit. One that starts within its separation certainly keeps its height.
+  // of its limit. Of one that starts within its separation it says, exactly, whether it comes no closer.
   bool keeps(const MotionLimit& limit, const double* x) const;
 
   // The heights of its limit that a vertex has to lose at both ends of its motion, and what storing can
-  // change: nearly.
+  // change: nearly. Of one that starts within its separation only their signs are right.
   struct Heights {
     double start, end, rounding;
   };
@@ -30,6 +30,7 @@ class PlaneLimits {
 
  private:
   double separation(int vertex) const;
+  bool comes_no_closer(const MotionLimit& limit, const double* x) const;
 
   const MeshData& mesh_;
   const Motion& motion_;

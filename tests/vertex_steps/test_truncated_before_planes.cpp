@@ -1,4 +1,5 @@
 // Planes of the mesh keep what truncate_step returns in front of them, exactly, and the pairs stay apart too.
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
 
@@ -97,6 +98,78 @@ TEST_CASE("a vertex that falls on a plane goes nearly all of its way there, othe
   CHECK(std::fabs(r.positions[2] - 0.25) < 1e-12);
   CHECK(r.share[1] == 1);
   CHECK(r.stats.contacts.vertex_plane == 1);
+}
+
+TEST_CASE("a vertex within its separation of a plane slides along it, as a step lets it", "[truncate_step]") {
+  Eigen::MatrixXd x(1, 3), x_new(1, 3);
+  x << 0, 0, 0.05;
+  x_new << 1, 0, 0.05;
+  CollisionRules rules;
+  rules.planes = {{{0, 0, 1}, 0}};
+  const Mesh mesh(x, Eigen::MatrixXi(0, 3), rules);
+  TruncateOptions options;
+  options.min_separation = 0.1;
+  CHECK(compute_collision_free_stepsize(mesh, x, x_new, options).step == 1);
+  const TruncatedStep r = truncate_step(mesh, x, x_new, options);
+  CHECK((r.share[0] == 1 && r.outcome == Outcome::free));
+  x_new(0, 2) = std::nextafter(0.05, 0);
+  CHECK(truncate_step(mesh, x, x_new, options).share[0] == 0);
+}
+
+TEST_CASE("a vertex within its separation goes all its way where it comes no closer to the plane, exactly",
+          "[oracle][property]") {
+  scenes::Random random(oracle::fuzz_seed() * 1000 + 91);
+  int slide = 0, all = 0, stopped = 0, part = 0;
+  for (int i = 0; i < oracle::fuzz(2000); ++i) {
+    Eigen::MatrixXd x(1, 3), x_new(1, 3);
+    CollisionRules rules;
+    Plane plane;
+    for (std::size_t a = 0; a < 3; ++a) plane.normal[a] = scenes::integer(random, -3, 3);
+    plane.normal[random() % 3] = scenes::coin(random) ? 1 : scenes::uniform(random, 0.1, 1);
+    for (Eigen::Index a = 0; a < 3; ++a) x(0, a) = scenes::uniform(random, -1, 1);
+    const RowVector3d n(plane.normal[0], plane.normal[1], plane.normal[2]);
+    plane.offset = x.row(0).dot(n) - n.norm() * scenes::power_of_ten(random, -14, -2);
+    RowVector3d along =
+        n.cross(RowVector3d(scenes::integer(random, -9, 9), scenes::integer(random, -9, 9), 1));
+    along *= 0x1p-6;
+    if (scenes::coin(random)) along *= scenes::unit(random);
+    if (scenes::coin(random)) x = (x * 0x1p20).array().round() * 0x1p-20;  // and all is exact
+    x_new.row(0) = x.row(0) + along;
+    if (scenes::integer(random, 0, 3) == 0) x_new.row(0) += n * scenes::power_of_ten(random, -18, -3);
+    rules.planes = {plane};
+    TruncateOptions o;
+    o.min_separation = 0.1;
+    const Mesh mesh(x, Eigen::MatrixXi(0, 3), rules);
+    const HalfSpaceTruth truth(plane, o.min_separation, o.norm);
+    const Rational start = truth.value(x.row(0)), end = truth.value(x_new.row(0)),
+                   sum = truth.value(RowVector3d(x + (x_new - x)));
+    if (oracle::sign(start) <= 0) continue;
+    const TruncatedStep r = truncate_step(mesh, x, x_new, o);
+    CAPTURE(i, r.share[0]);
+    slide += end == start, all += r.share[0] == 1, stopped += r.share[0] == 0;
+    CHECK((r.share[0] == 1) == (end >= start && sum >= start));
+    if (end < start) CHECK(r.share[0] == 0);
+    part += end >= start && r.share[0] < 1;
+    CHECK(truth.value(row(r.positions, 0)) >= start);
+    CHECK(truth.value(RowVector3d(x + row(r.displacements, 0))) >= start);
+  }
+  std::printf("%d slide exactly, %d go all their way, %d a part of it for their sum, %d stay\n", slide, all,
+              part, stopped);
+  CHECK(slide > oracle::fuzz(2000) / 8);
+}
+
+TEST_CASE("a plane beyond all doubles holds nobody up", "[truncate_step]") {
+  Eigen::MatrixXd x(1, 3), x_new(1, 3);
+  x << 0, 0, 1;
+  x_new << 1, 0, -1;
+  CollisionRules rules;
+  rules.planes = {{{0, 0, 1e-20}, -1e300}};
+  for (const double share : {0.0, 0.1}) {
+    TruncateOptions options;
+    options.gap_share = share;
+    const TruncatedStep r = truncate_step(Mesh(x, Eigen::MatrixXi(0, 3), rules), x, x_new, options);
+    CHECK((r.share[0] == 1 && r.outcome == Outcome::free));
+  }
 }
 
 TEST_CASE("a vertex that rests within its separation of a plane holds nobody up", "[truncate_step]") {
