@@ -54,10 +54,9 @@ class CandidateList {
         ++count, found.push_back({v, block.row});
     };
     if (use_.list) {
-      auto all = gather_planes<IdRow>(blocks, std::size_t(std::max<std::int64_t>(room_, 0)), budget_, add,
-                                      [](const IdRow& ids) {
-                                        return IdPair{ids[0], ids[1]};
-                                      });
+      Gathered<IdRow> all;
+      const auto ids_of = [](const IdRow& ids) { return IdPair{ids[0], ids[1]}; };
+      gather_planes(blocks, std::size_t(std::max<std::int64_t>(room_, 0)), budget_, add, ids_of, all);
       if (all.too_many) room_ = -1;
       result_.vertex_plane = std::move(all.found);
     } else {

@@ -103,9 +103,8 @@ void list_pairs(const Mesh& mesh, const Options& options, Budget& budget, Rest& 
   rest.find(mesh, Rest::Pairs::within_separation, options, budget);
   if (rest.broad) {
     auto all = find_near(mesh, rest, options, limits.get(), most(options, sizeof(NearPair)), budget);
-    auto planes = find_near_planes(mesh, rest.motion, options, most(options, sizeof(NearPair)), budget);
-    too_many = too_many || all.too_many || planes.too_many;
-    all.found.insert(all.found.end(), planes.found.begin(), planes.found.end());
+    add_near_planes(mesh, rest.motion, options, most(options, sizeof(NearPair)), budget, all);
+    too_many = too_many || all.too_many;
     std::size_t touching = 0;
     for (const NearPair& p : all.found) touching += p.touches;
     report.touching.reserve(touching), report.within_separation.reserve(all.found.size() - touching);

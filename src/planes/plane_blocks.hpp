@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <mutex>
+#include <cstdint>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/parts.hpp"
 #include "narrowphase/plane/oriented_plane.hpp"
 #include "onset/options.hpp"
 #include "scene/pair_sink.hpp"
@@ -91,25 +92,29 @@ void visit_planes(const PlaneBlocks& blocks, Budget& budget, const Visit& visit,
   });
 }
 
-// Gathers what visit(block, vertex, found) appends to `found` for the vertices of all planes: at most `most`,
-// ordered by ids_of(found). A spent budget ends it early, with some of what was found until then.
+// Appends to `all` what visit(block, vertex, found) appends to `found` for the vertices of all planes,
+// ordered by ids_of(found): not too many are then `most`, with those that are there already. A spent budget
+// ends it early, with some of what was found until then: kRowsCutOff at most.
 template <class Found, class Visit, class IdsOf>
-Gathered<Found> gather_planes(const PlaneBlocks& blocks, std::size_t most, Budget& budget, const Visit& visit,
-                              const IdsOf& ids_of) {
-  Gathered<Found> all;
-  if (blocks.size() == 0) return all;
-  std::mutex mutex;
-  visit_planes<Found>(blocks, budget, visit, [&](const std::vector<Found>& found) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (all.found.size() + found.size() > most) all.too_many = true;
-    if (!all.too_many) all.found.insert(all.found.end(), found.begin(), found.end());
+void gather_planes(const PlaneBlocks& blocks, std::size_t most, Budget& budget, const Visit& visit,
+                   const IdsOf& ids_of, Gathered<Found>& all) {
+  if (blocks.size() == 0 || all.too_many) return;
+  Parts<Found> parts;
+  std::atomic<std::size_t> count{all.found.size()};
+  visit_planes<Found>(blocks, budget, visit, [&](std::vector<Found>& found) {
+    if ((count += found.size()) <= most) parts.add(found);
   });
-  if (all.too_many) all.found = {};
-  std::sort(all.found.begin(), all.found.end(), [&](const Found& x, const Found& y) {
-    const IdPair p = ids_of(x), q = ids_of(y);
-    return p.a != q.a ? p.a < q.a : p.b < q.b;
-  });
-  return all;
+  all.too_many = count > most;
+  if (all.too_many) {
+    parts.clear();
+    all.found = {};
+    return;
+  }
+  const auto key = [&](const Found& f) {
+    const IdPair ids = ids_of(f);
+    return std::uint64_t(ids.a) << 32 | std::uint64_t(ids.b);
+  };
+  sort_within(budget, parts, key, all.found);
 }
 
 }  // namespace onset

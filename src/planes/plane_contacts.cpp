@@ -36,10 +36,7 @@ class PlaneTraversal {
       });
       stats.candidates = std::int64_t(block.last - block.first);
       stats.contacts = std::int64_t(results.size());
-      const std::lock_guard<std::mutex> lock(mutex_);
-      all.stats.add(stats);
-      found.add(PairKind::vertex_plane, std::move(results));
-      if (found.too_many()) found.keep_earliest({});
+      keep(std::move(results), stats, most, found);
     });
     all.found = found.take(budget_);
   }
@@ -92,6 +89,23 @@ class PlaneTraversal {
   PlaneContacts all;
 
  private:
+  // Adds what was found to the rest. Where that is too much, the earliest are kept while others add theirs.
+  void keep(std::vector<PairResult>&& results, const NarrowPhaseStats& stats, std::size_t most,
+            FoundPairs& found) {
+    FoundPairs many(most);
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      all.stats.add(stats);
+      found.add(PairKind::vertex_plane, std::move(results));
+      if (!found.too_many() || dropping_) return;
+      dropping_ = true;
+      std::swap(many, found);
+    }
+    many.keep_earliest(budget_.stop());
+    const std::lock_guard<std::mutex> lock(mutex_);
+    found.add(std::move(many));
+    dropping_ = false;
+  }
   // Calls f(vertex, separation, span) for those that the cheap test leaves, until it returns false.
   template <class F>
   void for_survivors(const PlaneBlock& block, double kept, F&& f) const {
@@ -127,6 +141,7 @@ class PlaneTraversal {
   const PlaneBlocks blocks_;
   const bool maximum_norm_;
   std::mutex mutex_;
+  bool dropping_ = false;
 };
 
 }  // namespace

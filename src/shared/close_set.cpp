@@ -102,26 +102,19 @@ void add_if_close_to_plane(const CloseInput& in, const PlaneBlock& block, int v,
 Gathered<ClosePair> find_close(const PairSource& candidates, const CloseInput& input, Budget& budget) {
   static_assert(sizeof(ClosePair) == 88, "as documented");
   const std::size_t most = std::size_t(input.options.memory_limit / std::int64_t(sizeof(ClosePair)));
+  const auto ids_of = [](const ClosePair& p) { return IdPair{p.a, p.b}; };
   auto all = gather<ClosePair>(
       candidates, {kStepKinds.begin(), kStepKinds.end()}, most, budget,
       [&](PairKind kind, const IdPair* pairs, std::size_t count, std::vector<ClosePair>& close) {
         for (std::size_t i = 0; i < count; ++i) add_if_close(input, kind, pairs[i], close);
       },
-      [](const ClosePair& p) {
-        return IdPair{p.a, p.b};
-      });
-  if (input.mesh.data().mesh_planes && !all.too_many) {
-    const auto planes = gather_planes<ClosePair>(
-        PlaneBlocks(input.mesh.data(), input.axes, Norm::euclidean), most - all.found.size(), budget,
-        [&](const PlaneBlock& block, int v, std::vector<ClosePair>& close) {
-          add_if_close_to_plane(input, block, v, close);
-        },
-        [](const ClosePair& p) {
-          return IdPair{p.a, p.b};
-        });
-    all.too_many = planes.too_many;
-    all.found.insert(all.found.end(), planes.found.begin(), planes.found.end());
-  }
+      ids_of);
+  gather_planes(
+      PlaneBlocks(input.mesh.data(), input.axes, Norm::euclidean), most, budget,
+      [&](const PlaneBlock& block, int v, std::vector<ClosePair>& close) {
+        add_if_close_to_plane(input, block, v, close);
+      },
+      ids_of, all);
   if (budget.outcome() != Outcome::free || all.too_many) all.found = {};
   return all;
 }

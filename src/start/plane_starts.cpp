@@ -24,19 +24,22 @@ std::optional<PlaneStart> near(const Motion& motion, const Options& options, con
 Gathered<std::array<int, 2>> find_behind_planes(const Mesh& mesh, const Motion& motion,
                                                 const Options& options, std::size_t most, Budget& budget) {
   using Ids = std::array<int, 2>;
-  return gather_planes<Ids>(
+  Gathered<Ids> all;
+  gather_planes(
       PlaneBlocks(mesh.data(), motion.axes, options.norm), most, budget,
       [&](const PlaneBlock& block, int v, std::vector<Ids>& found) {
         if (near(motion, options, block, v, 0)) found.push_back({v, block.row});
       },
       [](const Ids& ids) {
         return IdPair{ids[0], ids[1]};
-      });
+      },
+      all);
+  return all;
 }
 
-Gathered<NearPair> find_near_planes(const Mesh& mesh, const Motion& motion, const Options& options,
-                                    std::size_t most, Budget& budget) {
-  return gather_planes<NearPair>(
+void add_near_planes(const Mesh& mesh, const Motion& motion, const Options& options, std::size_t most,
+                     Budget& budget, Gathered<NearPair>& all) {
+  gather_planes(
       PlaneBlocks(mesh.data(), motion.axes, options.norm), most, budget,
       [&](const PlaneBlock& block, int v, std::vector<NearPair>& found) {
         const auto start = near(motion, options, block, v, separation_from_planes(mesh.data(), options, v));
@@ -47,7 +50,8 @@ Gathered<NearPair> find_near_planes(const Mesh& mesh, const Motion& motion, cons
       },
       [](const NearPair& p) {
         return IdPair{p.pair.a, p.pair.b};
-      });
+      },
+      all);
 }
 
 }  // namespace onset

@@ -13,9 +13,9 @@ namespace onset {
 Gathered<std::array<int, 2>> find_behind_planes(const Mesh& mesh, const Motion& motion,
                                                 const Options& options, std::size_t most, Budget& budget);
 
-// Finds these too, and the vertices that are no farther from a plane than their separation, exactly, in the
-// norm asked for.
-Gathered<NearPair> find_near_planes(const Mesh& mesh, const Motion& motion, const Options& options,
-                                    std::size_t most, Budget& budget);
+// Appends these too, and the vertices that are no farther from a plane than their separation, exactly, in the
+// norm asked for: at most `most`, with what is there already.
+void add_near_planes(const Mesh& mesh, const Motion& motion, const Options& options, std::size_t most,
+                     Budget& budget, Gathered<NearPair>& all);
 
 }  // namespace onset

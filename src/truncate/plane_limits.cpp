@@ -10,9 +10,9 @@ namespace onset {
 
 double PlaneLimits::separation(int vertex) const { return separation_from_planes(mesh_, options_, vertex); }
 
-Gathered<MotionLimit> PlaneLimits::find(std::size_t most, Budget& budget) const {
+void PlaneLimits::add(std::size_t most, Budget& budget, Gathered<MotionLimit>& all) const {
   const bool maximum_norm = options_.norm == Norm::maximum;
-  return gather_planes<MotionLimit>(
+  gather_planes(
       blocks_, most, budget,
       [&](const PlaneBlock& block, int v, std::vector<MotionLimit>& found) {
         const OrientedPlane& n = *block.plane;
@@ -30,7 +30,8 @@ Gathered<MotionLimit> PlaneLimits::find(std::size_t most, Budget& budget) const 
       },
       [](const MotionLimit& limit) {
         return IdPair{limit.pair.a, limit.pair.b};
-      });
+      },
+      all);
 }
 
 // Where two heights differ by no more than their errors, integers decide.

@@ -13,9 +13,10 @@ class PlaneLimits {
   PlaneLimits(const MeshData& mesh, const Motion& motion, const TruncateOptions& options)
       : mesh_(mesh), motion_(motion), options_(options), blocks_(mesh, motion.axes, options.norm) {}
 
-  // Finds the vertices that do not certainly go all their way. Of their limits, plane.first is the height to
+  // Appends the vertices that do not certainly go all their way: at most `most`, with the limits that are
+  // there already. Of these, plane.first is the height to
   // keep, an approximation. One that starts within its separation keeps its own instead.
-  Gathered<MotionLimit> find(std::size_t most, Budget& budget) const;
+  void add(std::size_t most, Budget& budget, Gathered<MotionLimit>& all) const;
 
   // Says, exactly, whether a vertex that is stored at x keeps its separation, and nearly, whether the height
   // of its limit. Of one that starts within its separation it says, exactly, whether it comes no closer.
