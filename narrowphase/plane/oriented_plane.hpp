@@ -52,8 +52,8 @@ struct PlaneSpan {
   // Says whether the vertex keeps `separation`, and the share `kept` in [0, 1) of what it has beyond that,
   // and four times what storing can change, during the whole motion. Neither NaN nor infinities do.
   bool stays_beyond(const OrientedPlane& n, double separation, double kept) const {
-    const double least = separation * n.norm + error;
-    return start > least && end - kept * start > least && start < INFINITY && end < INFINITY;
+    const double least = separation * n.norm, gap = start - least;
+    return gap - kept * gap > error && end - kept * start > least + error && end < INFINITY;
   }
 };
 

@@ -262,3 +262,32 @@ TEST_CASE("a line search keeps a share of what vertices have above planes", "[pl
               counts.broken);
   CHECK(counts.broken == 0);
 }
+
+// The second vertex ends the step soon, while the first slides, and rises by little more than rounding.
+TEST_CASE("a share of a gap of a few roundings is kept, or is said to be less", "[planes][oracle]") {
+  Random random(oracle::fuzz_seed() * 1000 + 78);
+  int kept = 0, broken = 0;
+  for (int i = 0; i < oracle::fuzz(5000); ++i) {
+    PlaneScene s;
+    s.x_t0.resize(2, 3), s.x_t1.resize(2, 3);
+    for (int a = 0; a < 3; ++a) s.x_t0(0, a) = scenes::uniform(random, 0.5, 1);
+    s.x_t0.row(1) << 50, 50, 0;
+    const double f = s.x_t0.row(0).sum(), a = scenes::uniform(random, -0.5, 0.5),
+                 b = scenes::uniform(random, -0.5, 0.5);
+    s.rules.planes = {{{1, 1, 1}, f - scenes::uniform(random, 60, 80) * 0x1p-52 * f}, {{0, 0, 1}, -100}};
+    Eigen::MatrixXd dx = Eigen::MatrixXd::Zero(2, 3);
+    dx.row(0) << a, b, scenes::uniform(random, 1, 3) * 0x1p-44 - a - b;
+    dx(1, 2) = -150;
+    s.x_t1 = s.x_t0 + dx;
+    LineSearchOptions o;
+    o.gap_share = 1 - scenes::power_of_ten(random, -6, -1);
+    const LineSearchStep r = LineSearch(s.mesh(), s.x_t0, dx, o).largest_step();
+    if (r.step == 0) continue;
+    const Case c(s, 0, 0);
+    ++kept;
+    for (int how = 0; how < 3; ++how)
+      broken += c.truth.value(stored(c, how, r.step)) < Rational(r.gap_share) * c.way.start;
+  }
+  CHECK(kept > oracle::fuzz(5000) / 8);
+  CHECK(broken == 0);
+}
