@@ -118,7 +118,8 @@ class Truncation {
     limits_ = std::move(found.found);
     const VertexGroups groups(mesh_.data(), setup.motion, x_t0_, budget_.stop());
     if (budget_.spent()) return;
-    const LimitsOfGroups of_groups(groups, limits_);
+    const LimitsOfGroups of_groups(groups, limits_, budget_.stop());
+    if (budget_.spent()) return;
     constexpr std::size_t kGrain = 256;
     parallel_ranges(groups.size(), kGrain, [&](std::size_t first, std::size_t last) {
       for (; first < last; ++first) {

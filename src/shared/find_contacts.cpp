@@ -97,15 +97,30 @@ double t_max_of(const PlaneContacts& planes, const Options& options) {
   return t_max;
 }
 
-// Adds what was found of planes, which come last in order.
-void add_planes(const PlaneContacts& planes, std::size_t most, TraversalResult& traversal) {
-  traversal.limits.add(planes.limits);
-  std::vector<FoundPair>& found = traversal.found;
-  found.insert(found.end(), planes.found.begin(), planes.found.end());
-  if (planes.found.empty() || found.size() <= most) return;
-  std::nth_element(found.begin(), found.begin() + std::ptrdiff_t(most), found.end(), earlier);
-  found.resize(most);
-  std::sort(found.begin(), found.end(), before);
+// Adds what was found of planes, which come last in order; of more than `most` the earliest, or some where
+// time or the caller ends that.
+void add_planes(std::vector<FoundPair>&& of_planes, std::size_t most, Budget& budget,
+                std::vector<FoundPair>& found) {
+  if (found.empty()) found.swap(of_planes);
+  if (of_planes.empty()) return;
+  const Stop stop = budget.interruption();
+  if (found.size() + of_planes.size() <= most) {
+    found.reserve(found.size() + of_planes.size());
+    each_unless(stop, 0, of_planes.size(), [&](std::size_t i) { found.push_back(of_planes[i]); });
+    return;
+  }
+  FoundPairs all(most);
+  for (std::vector<FoundPair>* from : {&found, &of_planes}) {
+    const std::vector<FoundPair> list = std::move(*from);  // given back before the next one is copied
+    for (std::size_t i = 0; i < list.size() && !stop.requested();) {
+      const PairKind kind = list[i].kind;
+      std::vector<PairResult> results;
+      for (; i < list.size() && list[i].kind == kind && results.size() < kItemsALook; ++i)
+        results.push_back(list[i].result);
+      all.add(kind, std::move(results));
+    }
+  }
+  found = all.take(budget);
 }
 
 // Says whether a pair is a candidate of the whole step, as an active set has it.
@@ -138,7 +153,7 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
     input.rounding = setup.rounding;
     input.contacts = &contacts;
   }
-  const PlaneContacts planes = find_plane_contacts(
+  PlaneContacts planes = find_plane_contacts(
       {mesh.data(), setup.motion, options, {collect == Collect::first, 0, options.touching_may_pass_through}},
       collect, budget, limited.most);
   TraversalResult traversal;
@@ -159,7 +174,8 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   if (collect == Collect::first) traversal.limits.add(sampled);
   if (collect == Collect::all && !mesh.data().whole)
     sharpen(narrow, least_toi_hi(traversal.found), traversal.found, budget);
-  add_planes(planes, limited.most, traversal);
+  traversal.limits.add(planes.limits);
+  add_planes(std::move(planes.found), limited.most, budget, traversal.found);
   copy_counts(traversal, stats);
   add_counts(planes, stats);
   stats.seconds_narrow = setup.clock.seconds() - begun;

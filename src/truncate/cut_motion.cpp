@@ -5,18 +5,22 @@
 
 namespace onset {
 
-LimitsOfGroups::LimitsOfGroups(const VertexGroups& groups, const std::vector<MotionLimit>& limits)
+LimitsOfGroups::LimitsOfGroups(const VertexGroups& groups, const std::vector<MotionLimit>& limits,
+                               const Stop& stop)
     : start_(groups.size() + 1) {
-  for (const MotionLimit& limit : limits)
-    for (const int v : limit.pair.vertices)
+  each_unless(stop, 0, limits.size(), [&](std::size_t i) {
+    for (const int v : limits[i].pair.vertices)
       if (v >= 0) ++start_[std::size_t(groups.of(v)) + 1];
+  });
+  if (stop.requested()) return;
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   entries_.resize(start_.back());
   std::vector<std::size_t> place(start_.begin(), start_.end());
-  for (std::size_t i = 0; i < limits.size(); ++i)
+  each_unless(stop, 0, limits.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < 4 && limits[i].pair.vertices[k] >= 0; ++k)
       entries_[place[std::size_t(groups.of(limits[i].pair.vertices[k]))]++] = {std::uint32_t(i),
                                                                                std::uint8_t(k)};
+  });
 }
 
 StoredVertex moved(const Motion& motion, int vertex, double s) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "src/truncate/motion_limits.hpp"
 #include "src/truncate/plane_limits.hpp"
 #include "src/truncate/vertex_groups.hpp"
@@ -19,7 +20,8 @@ class LimitsOfGroups {
     std::uint32_t limit;
     std::uint8_t place;
   };
-  LimitsOfGroups(const VertexGroups& groups, const std::vector<MotionLimit>& limits);
+  // Where it is stopped, it must not be asked.
+  LimitsOfGroups(const VertexGroups& groups, const std::vector<MotionLimit>& limits, const Stop& stop);
   const Entry* begin(std::size_t group) const { return entries_.data() + start_[group]; }
   const Entry* end(std::size_t group) const { return entries_.data() + start_[group + 1]; }
 

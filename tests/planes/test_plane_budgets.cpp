@@ -1,10 +1,12 @@
 // Many contacts with planes: what memory holds of them, and how soon a call ends.
 #include <algorithm>
+#include <tuple>
 
 #include "base/parallel.hpp"
 #include "src/planes/plane_blocks.hpp"
 #include "tests/catch.hpp"
 #include "tests/counted_clock.hpp"
+#include "tests/scenes/meshes.hpp"
 #include "tests/scenes/random.hpp"
 #include "tests/src/support/scene_set.hpp"
 
@@ -95,5 +97,44 @@ TEST_CASE("the earliest contacts with planes that memory holds are kept, and tim
     const ActiveSet cut = construct_active_set(mesh, fall.x0, fall.x1, o);
     if (n < looks / 2) CHECK(cut.outcome == Outcome::out_of_time);
     CHECK((cut.outcome != Outcome::out_of_time || cut.complete_until == 0));
+  }
+}
+
+TEST_CASE("of contacts among pairs and with planes the earliest that memory holds are kept", "[planes]") {
+  Random random(81);
+  scenes::Scene s = scenes::cloth(30, 30);
+  scenes::shake(s, 0.3, random);
+  s.x_t1.col(2).array() -= 2;
+  CollisionRules rules;
+  rules.planes = {{{0, 0, 1}, -0.5}};
+  const Mesh mesh(s.x_t0, s.faces, rules);
+  Options o;
+  o.threads = 1;
+  const ActiveSet whole = construct_active_set(mesh, s.x_t0, s.x_t1, o);
+  const std::int64_t planes = whole.stats.contacts.vertex_plane, pairs = std::int64_t(whole.size()) - planes;
+  REQUIRE((planes > 100 && pairs > 100));
+  const auto earlier = [](const Contact& x, const Contact& y) {
+    return std::tie(x.toi, x.kind, x.a, x.b) < std::tie(y.toi, y.kind, y.a, y.b);
+  };
+  const auto before = [](const Contact& x, const Contact& y) {
+    return std::tie(x.kind, x.a, x.b) < std::tie(y.kind, y.a, y.b);
+  };
+  std::vector<Contact> expected(whole.begin(), whole.end());
+  std::sort(expected.begin(), expected.end(), earlier);
+  o.memory_limit = 256 * (std::max(planes, pairs) + std::min(planes, pairs) / 2);
+  const ActiveSet some = construct_active_set(mesh, s.x_t0, s.x_t1, o);
+  CHECK(some.outcome == Outcome::out_of_memory);
+  REQUIRE((some.size() > 100 && some.size() < whole.size()));
+  expected.resize(some.size());
+  std::sort(expected.begin(), expected.end(), before);
+  CHECK(std::equal(some.begin(), some.end(), expected.begin(),
+                   [&](const Contact& x, const Contact& y) { return !before(x, y) && !before(y, x); }));
+  const CountedClock clock;
+  for (std::int64_t n = 1, ended = true; ended != 0; n += 1 + n / 3) {
+    o.time_limit = double(n);
+    const ActiveSet cut = construct_active_set(mesh, s.x_t0, s.x_t1, o);
+    ended = cut.outcome == Outcome::out_of_time;
+    CHECK(std::is_sorted(cut.begin(), cut.end(), before));
+    if (ended != 0) CHECK(cut.complete_until == 0);
   }
 }
