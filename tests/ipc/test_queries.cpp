@@ -1,4 +1,5 @@
 // The queries of one pair by ipc-toolkit's names, against exact arithmetic.
+#include <onset/compat/ipc.hpp>
 #include <onset/compat/narrow_phase.hpp>
 #include <onset/compat/plane_query.hpp>
 
@@ -271,4 +272,36 @@ TEST_CASE("a vertex keeps its share of its distance from a plane, exactly", "[or
     CHECK(compat::plane_impact(limited, plane, p, q, 0, 0.5, 0.8) == (toi <= 0.5));
   }
   CHECK((impacts > 20 && free > 20));
+}
+
+TEST_CASE("what a step may use up of a gap is any number in (0, 1], by all calls", "[unit]") {
+  Eigen::MatrixXd x(2, 3), y;
+  x << 0, 0, 1, 5, 5, 1;
+  y = x;
+  y.col(2).array() -= 2;
+  ipc::CollisionMesh mesh(x);
+  mesh.planes.emplace_back(Eigen::Vector3d(0, 0, 1), 0.0);
+  const ipc::PlaneVertexCandidate pair(mesh.planes[0], 0);
+  const Eigen::VectorXd from = x.row(0).transpose(), to = y.row(0).transpose();
+  ipc::Candidates all;
+  all.build(mesh, x, y);
+  REQUIRE(all.size() == 2);
+  ipc::TightInclusionCCD ccd;
+  for (const double rescaling : {1.0, 0.5, 0x1p-53, 1e-17, 0x1p-1074}) {
+    ccd.conservative_rescaling = rescaling;
+    CAPTURE(rescaling);
+    double toi = -1;
+    CHECK((pair.ccd(from, to, toi, 0, 1, ccd) && toi >= 0 && toi <= 0.5 * rescaling + 0x1p-50));
+    for (const double step : {ipc::compute_collision_free_stepsize(mesh, x, y, 0, nullptr, ccd),
+                              all.compute_collision_free_stepsize(mesh, x, y, 0, ccd),
+                              all.compute_cfl_stepsize(mesh, x, y, 0.1, 0, nullptr, ccd)})
+      CHECK((step >= 0 && step <= 0.5 * rescaling + 0x1p-50));
+  }
+  for (const double rescaling : {0.0, -1.0, 1.5, double(NAN)}) {
+    ccd.conservative_rescaling = rescaling;
+    double toi = -1;
+    CHECK_THROWS_AS(pair.ccd(from, to, toi, 0, 1, ccd), std::invalid_argument);
+    CHECK_THROWS_AS(ipc::compute_collision_free_stepsize(mesh, x, y, 0, nullptr, ccd), std::invalid_argument);
+    CHECK_THROWS_AS(all.compute_collision_free_stepsize(mesh, x, y, 0, ccd), std::invalid_argument);
+  }
 }

@@ -118,9 +118,9 @@ class Candidates {
                                          const Vertices& vertices_t1, double min_distance = 0,
                                          const NarrowPhaseCCD& ccd = DEFAULT_NARROW_PHASE_CCD) const {
     if (!ccd.onset_options()) return step_by(ccd, mesh, *vertices_t0, *vertices_t1, min_distance);
-    const double gap_share = in_environment([&] { return 1 - ccd.conservative_rescaling; });
     return onset::compute_collision_free_stepsize(mesh.onset_mesh(), list(mesh), *vertices_t0, *vertices_t1,
-                                                  options_of(min_distance, ccd), gap_share)
+                                                  options_of(min_distance, ccd),
+                                                  compat::kept_share(ccd.conservative_rescaling))
         .step;
   }
   bool is_step_collision_free(const CollisionMesh& mesh, const Vertices& vertices_t0,
@@ -169,7 +169,7 @@ class Candidates {
     const ClosePairs close = close_pairs(all, *vertices_t0, dhat, options);
     if (close.outcome != Outcome::free) return 0;
     return onset::compute_cfl_stepsize(all, *vertices_t0, *vertices_t1, close, options,
-                                       in_environment([&] { return 1 - ccd.conservative_rescaling; }))
+                                       compat::kept_share(ccd.conservative_rescaling))
         .step;
   }
 

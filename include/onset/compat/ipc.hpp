@@ -59,7 +59,7 @@ inline double compute_collision_free_stepsize(const CollisionMesh& mesh, const V
       return candidates.compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1, min_distance, ccd);
     }
     LineSearchOptions options = options_of(min_distance, ccd, broad_phase);
-    options.gap_share = 1 - ccd.conservative_rescaling;
+    options.gap_share = compat::kept_share(ccd.conservative_rescaling);
     return LineSearch(mesh.onset_mesh(), *vertices_t0, Eigen::MatrixXd(*vertices_t1 - *vertices_t0), options)
         .largest_step()
         .step;

@@ -125,6 +125,14 @@ inline void require_limits(double min_distance, double tmax, double conservative
                                 ", not in (0, 1]");
 }
 
+// The share of a gap that is kept, in [0, 1): the largest number below 1 where it is nearer to 1. Out of
+// range where conservative_rescaling is.
+inline double kept_share(double conservative_rescaling) {
+  double share = 0;
+  in_default_float_environment([&] { share = 1 - conservative_rescaling; });
+  return share == 1 && conservative_rescaling > 0 ? 1 - 0x1p-53 : share;
+}
+
 // The time of time_of_impact, up to 1, in the library's floating-point environment.
 inline double first_time(const PairMotion& motion, double min_distance, double conservative_rescaling,
                          Options options) {

@@ -41,10 +41,9 @@ bool plane_impact(double& toi, const Eigen::Hyperplane<double, 3>& plane, const 
   options.min_separation = min_distance;
   Candidates pair;
   pair.vertex_plane = {{0, 0}};
-  double gap_share = 0;
-  in_default_float_environment([&] { gap_share = 1 - conservative_rescaling; });
-  const StepResult r = compute_collision_free_stepsize(
-      mesh_of_plane(plane, p_t0), pair, p_t0.transpose().eval(), p_t1.transpose().eval(), options, gap_share);
+  const StepResult r =
+      compute_collision_free_stepsize(mesh_of_plane(plane, p_t0), pair, p_t0.transpose().eval(),
+                                      p_t1.transpose().eval(), options, kept_share(conservative_rescaling));
   toi = r.outcome == Outcome::free ? std::numeric_limits<double>::infinity() : r.step;
   if (!(toi <= tmax)) toi = std::numeric_limits<double>::infinity();
   return toi <= tmax;
