@@ -52,7 +52,9 @@ Shrunk shrink_to_t_max(const Mesh& mesh, StepSetup& setup, const NarrowPhase& na
     const double limit = narrow.times_are_exact() ? std::nextafter(first.step_limit, 2) : first.step_limit;
     t_max = std::min(t_max, collect == Collect::all ? latest_time(first) + options.window : limit);
   }
-  const std::int64_t pairs = (sample.vertex_face.candidates + sample.edge_edge.candidates) * int(stride);
+  const std::int64_t pairs =
+      (sample.vertex_face.candidates + sample.edge_edge.candidates + sample.vertex_edge.candidates) *
+      std::int64_t(stride);
   const bool pays = t_max < known || pairs > kManyPairs * mesh_size(mesh.data());
   if (t_max > kShrinksUpTo || !pays) return {t_max, false};
   BroadPhaseInput shrunk = collect == Collect::all ? broad_phase_input(mesh.data(), setup.motion, options,
