@@ -142,7 +142,7 @@ std::size_t most_contacts(const Options& options) {
 }
 
 TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect,
-                              Budget& budget, Stats& stats) {
+                              Budget& budget, Stats& stats, const PairPredicate* only) {
   if (!setup.broad) return {};
   const double begun = setup.clock.seconds();
   const TraversalBounds limited = collect == Collect::all ? bounds(options) : TraversalBounds{};
@@ -170,6 +170,7 @@ TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options&
   Shrunk shrunk;
   if (shrinks) shrunk = shrink_to_t_max(mesh, setup, narrow, options, collect, known, budget, sampled);
   TraversalBounds limits = limited;
+  limits.only = only;
   if (shrunk.boxes) limits.whole = &*setup.tree;
   if (collect == Collect::any) limits.whole = &*setup.whole;
   traversal = traverse_pairs(*setup.broad, narrow, collect, shrunk.t_max, budget, 1, limits);

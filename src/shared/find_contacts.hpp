@@ -12,9 +12,10 @@ std::size_t most_contacts(const Options& options);
 
 // Decides the candidates of `setup` that can matter to what is collected, and fills counts and times of
 // `stats`. It may shrink the boxes of `setup`. Without a broad phase there are no candidates. Of a part of a
-// scene the earliest contacts of an active set are left to be sharpened.
+// scene the earliest contacts of an active set are left to be sharpened. `only`: as in TraversalBounds; with
+// Collect::all, planes apart.
 TraversalResult find_contacts(const Mesh& mesh, StepSetup& setup, const Options& options, Collect collect,
-                              Budget& budget, Stats& stats);
+                              Budget& budget, Stats& stats, const PairPredicate* only = nullptr);
 
 // Returns the time by which one of these pairs has certainly touched, planes apart.
 double least_toi_hi(const std::vector<FoundPair>& found);

@@ -123,7 +123,7 @@ class PairTraversal {
       const std::size_t known = results.size();
       traversal.narrow_.process(kind, pairs, count, {traversal.first_t_max_, traversal.t_max()}, scratch,
                                 results);
-      if (traversal.bounds_.whole != nullptr) keep_candidates_of(*traversal.bounds_.whole, known);
+      keep_wanted(known);
       if (results.size() == known) return;
       scratch.stats.contacts += std::int64_t(results.size() - known);
       for (std::size_t i = known; i < results.size(); ++i) scratch.stats.note_outcome(results[i]);
@@ -133,8 +133,14 @@ class PairTraversal {
         traversal.take_limits(*this);
       if (results.size() >= kHeldByATask) traversal.merge(*this);
     }
-    void keep_candidates_of(const BroadPhaseInput& whole, std::size_t first) {
-      const auto is_other = [&](const PairResult& r) { return !is_candidate(whole, kind, r.pair); };
+    void keep_wanted(std::size_t first) {
+      const BroadPhaseInput* whole = traversal.bounds_.whole;
+      const PairPredicate* only = traversal.bounds_.only;
+      if (whole == nullptr && only == nullptr) return;
+      const auto is_other = [&](const PairResult& r) {
+        return (only != nullptr && !only->holds(only->context, kind, r.pair)) ||
+               (whole != nullptr && !is_candidate(*whole, kind, r.pair));
+      };
       results.erase(std::remove_if(results.begin() + std::ptrdiff_t(first), results.end(), is_other),
                     results.end());
     }

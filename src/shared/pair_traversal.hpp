@@ -67,6 +67,8 @@ struct TraversalBounds {
   // If set, only candidates of this are found. A pair within its tolerance and yet apart can be a candidate
   // up to t_max, and not in the whole step.
   const BroadPhaseInput* whole = nullptr;
+  // If set, only pairs for which it holds are found.
+  const PairPredicate* only = nullptr;
 };
 
 // Decides the pairs of every stride-th block. It ends early where the budget is spent: what is found is then

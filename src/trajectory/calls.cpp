@@ -1,6 +1,7 @@
 // The calls on trajectories: what is linear goes through the linear pipeline, the rest in pieces of time.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -111,22 +112,26 @@ Stats stats_of(const Mesh& mesh, const TurningAnswer& answer) {
   return stats;
 }
 
-// Pairs within a rigid body that start within their separation, of a mesh with this thickness.
+bool is_of_one_body(const void* scene, PairKind kind, IdPair pair) {
+  return static_cast<const TurningScene*>(scene)->is_of_one_body(kind, pair);
+}
+
+// Pairs within a rigid body that start within their separation, of a mesh with this thickness: others take
+// none of their memory. Of more than it has room for, the first ones.
 std::vector<FoundPair> Call::within_separation(const std::vector<double>& thickness, Stats& stats) {
   scene_->rest_data->thickness = thickness;
   Options options = options_;
   options.window = INFINITY;
   Stats of_these;
   StepSetup setup(scene_->rest, at(x0_), at(x0_), options, StepSetup::Use::contacts, of_these, budget_);
-  TraversalResult traversal = find_contacts(scene_->rest, setup, options, Collect::all, budget_, of_these);
-  const auto is_other = [&](const FoundPair& f) { return !scene_->is_of_one_body(f.kind, f.result.pair); };
-  std::vector<FoundPair>& found = traversal.found;
-  found.erase(std::remove_if(found.begin(), found.end(), is_other), found.end());
-  for (FoundPair& f : found)
+  const PairPredicate within{scene_.get(), is_of_one_body};
+  TraversalResult traversal =
+      find_contacts(scene_->rest, setup, options, Collect::all, budget_, of_these, &within);
+  for (FoundPair& f : traversal.found)
     f.result.toi = f.result.step_limit = 0, f.result.outcome = PairOutcome::initial_contact;
   of_these.contacts = {};
   add(of_these, stats);
-  return std::move(found);
+  return std::move(traversal.found);
 }
 
 // Pairs within a rigid body stay as far apart as they are, but for the rounding of what is stored: those that
@@ -135,18 +140,15 @@ std::vector<FoundPair> Call::in_bodies(Stats& stats) {
   if (!scene_->has_rest) return {};
   std::vector<FoundPair> near = within_separation(scene_->widened_at_rest(trajectory_), stats);
   if (near.empty() || budget_.outcome() != Outcome::free) return {};
-  const std::vector<FoundPair> contacts = within_separation(scene_->thickness, stats);
-  auto contact = contacts.begin();
   for (FoundPair& f : near) {
-    while (contact != contacts.end() && before(*contact, f)) ++contact;
-    if (contact != contacts.end() && !before(f, *contact)) {
-      f = *contact;
-      continue;
-    }
     f.result.outcome = PairOutcome::below_rounding, f.result.certainty = Certainty::within_tolerance;
     f.result.toi_hi = INFINITY;
   }
-  return near;
+  const std::vector<FoundPair> contacts = within_separation(scene_->thickness, stats);
+  std::vector<FoundPair> both;  // what is in both, as a contact
+  std::set_union(contacts.begin(), contacts.end(), near.begin(), near.end(), std::back_inserter(both),
+                 [](const FoundPair& x, const FoundPair& y) { return before(x, y); });
+  return both;
 }
 
 void stop_at(const Pair& pair, double t, Outcome outcome, StepResult& r) {

@@ -195,6 +195,32 @@ TEST_CASE("an active set of a trajectory says until when memory was enough", "[t
   CHECK(latest > 0);
 }
 
+TEST_CASE("little memory hides no contact within a body that turns", "[trajectory]") {
+  constexpr int kNear = 3,
+                kFirst = 3 + 3 * kNear;  // what only storing brings near, and the body's other part
+  MatrixXd x(kFirst + 9, 3);
+  x.topRows(3) << -10, -10, 0, 30, -10, 0, -10, 30, 0;
+  for (int k = 0; k < kNear; ++k) x.middleRows(3 + 3 * k, 3) << k * 2e-8, 0, 1e-9, 1 + k, .1, 1, 1 + k, .2, 1;
+  x.middleRows(kFirst, 6) << 0, 0, -5, 1, 0, -5, 0, 1, -5, .2, .2, -5, .3, .2, -6, .2, .3, -6;
+  x.bottomRows(3) << 1e6, 0, 7, 1e6, 1, 7, 1e6, 0, 8;
+  std::vector<int> touching, above;
+  for (int v = 0; v < int(x.rows()); ++v)
+    (v < 3 || (v >= kFirst && v < kFirst + 6) ? touching : above).push_back(v);
+  const Mesh mesh(x, triangles(int(x.rows()) / 3));
+  RigidTrajectory t(x);
+  t.add_body(touching, {0, 0, 1e-20}, {1e6, 0, 0}, {0, 0, 0});
+  t.add_body(above, {0, 0, 3}, {1e6, 0, 1}, {0, 0, 0});
+  for (const int contacts : {1000, 10, 2, 1, 0}) {
+    Options o;
+    o.memory_limit = 256 * contacts;
+    CAPTURE(contacts);
+    CHECK(compute_collision_free_stepsize(mesh, t, o).outcome == Outcome::initial_contact);
+    CHECK_FALSE(is_step_collision_free(mesh, t, o));
+    const ActiveSet set = construct_active_set(mesh, t, o);
+    CHECK((contacts > 0 ? set.size() > 0 && set[0].a == kFirst + 3 : set.complete_until == 0));
+  }
+}
+
 TEST_CASE("planes are counted as such where nothing turns", "[trajectory]") {
   MatrixXd x(3, 3), down(3, 3);
   x << 0, 0, 1, 1, 0, 1, 0, 1, 1;
