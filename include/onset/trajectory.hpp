@@ -45,7 +45,8 @@ class ONSET_API Trajectory {
   // [t0, t1], 0 <= t0 <= t1 <= 1, x(t) and X(t) are no farther, in the Euclidean norm, from the point at t of
   // the chord, X(t0) + (t - t0) / (t1 - t0) (X(t1) - X(t0)) in real arithmetic. Rounding is included: with
   // t0 = t1 it is all that there is, and of a vertex of a rigid body what it is at t0 = t1 = 1 must hold at
-  // all times. The bound should fall with the square of t1 - t0, else calls are slow.
+  // all times. A bound that is NaN or infinite is an outcome, whenever it is asked for; one below 0 is
+  // refused. The bound should fall with the square of t1 - t0, else calls are slow.
   virtual void straying(double t0, double t1, const int* vertices, std::size_t count,
                         double* bounds) const = 0;
 

@@ -138,7 +138,9 @@ std::vector<FoundPair> Call::within_separation(const std::vector<double>& thickn
 // are a contact are one at once, and so are those that rounding may make one (docs/trajectories.md, S5).
 std::vector<FoundPair> Call::in_bodies(Stats& stats) {
   if (!scene_->has_rest) return {};
-  std::vector<FoundPair> near = within_separation(scene_->widened_at_rest(trajectory_), stats);
+  const auto widened = scene_->widened_at_rest(trajectory_);
+  if (!widened) return {};  // the refinement says why
+  std::vector<FoundPair> near = within_separation(*widened, stats);
   if (near.empty() || budget_.outcome() != Outcome::free) return {};
   for (FoundPair& f : near) {
     f.result.outcome = PairOutcome::below_rounding, f.result.certainty = Certainty::within_tolerance;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "base/parallel.hpp"
 #include "broadphase/interval.hpp"
@@ -14,16 +12,6 @@ namespace {
 
 constexpr std::size_t kGrain = 512;
 constexpr double kCoarse = 0x1p-5;
-
-// Of the seven numbers of a vertex: both ends and the bound.
-Outcome classify(const double* from, const double* to, double bound) {
-  Outcome worst = Outcome::free;
-  for (const double x : {from[0], from[1], from[2], to[0], to[1], to[2], bound}) {
-    if (!std::isfinite(x)) return Outcome::non_finite;
-    if (std::fabs(x) > kMaxCoordinate) worst = Outcome::out_of_range;
-  }
-  return worst;
-}
 
 }  // namespace
 
@@ -89,27 +77,23 @@ void Pieces::fill(double t0, double t1, const int* vertices, std::size_t count) 
   for (std::size_t i = 0; i < turning.size(); ++i) bound_[std::size_t(turning[i])] = at[i];
 }
 
-Outcome Pieces::set(double t0, double t1, const std::vector<int>& vertices) {
-  t0_ = t0, t1_ = t1, largest_ = 0, bad_vertex_ = -1;
+bool Pieces::set(double t0, double t1, const std::vector<int>& vertices) {
+  t0_ = t0, t1_ = t1, largest_ = 0;
   parallel_ranges(vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
     fill(t0, t1, vertices.data() + first, last - first);
   });
   for (const int v : vertices) {
     const double bound = bound_[std::size_t(v)];
-    if (bound < 0)
-      throw std::invalid_argument("the bound of straying of vertex " + std::to_string(v) + " is below 0");
-    if (const Outcome o = classify(motion_.t0(v), motion_.t1(v), bound); o != Outcome::free) {
-      bad_vertex_ = v;
-      return o;
-    }
+    note(fault_of(v, motion_.t0(v), motion_.t1(v), bound), v);
     largest_ = std::max(largest_, bound);
   }
+  if (fault_.outcome != Outcome::free) return false;
   std::vector<double>& thickness = scene_.pieces->thickness;
   for (const int v : vertices) {
     const std::size_t i = std::size_t(v);
     thickness[i] = scene_.thickness.empty() ? bound_[i] : (scene_.thickness[i] + largest_) * (1 + 0x1p-51);
   }
-  return Outcome::free;
+  return true;
 }
 
 // The share is taken off by 2^-40, and the sum rounds by half the distance of two doubles.
@@ -129,26 +113,39 @@ double Pieces::added(const std::array<int, 4>& vertices, PairKind kind) const {
   return (largest[0] + largest[1]) * (1 + 0x1p-52);
 }
 
-double Pieces::rounding(const std::array<int, 4>& vertices, PairKind kind) const {
+double Pieces::rounding_at(double t, int v) {
+  if (scene_.body[std::size_t(v)] == Trajectory::kLinear) return linear_bound(v);
+  double bound = 0;
+  const Fault fault = ask_straying(trajectory_, t, t, &v, 1, &bound);
+  note(fault.outcome, v);
+  return bound;
+}
+
+double Pieces::rounding(const std::array<int, 4>& vertices, PairKind kind) {
   double largest[2] = {0, 0};
   for (int i = 0; i < 4; ++i) {
-    const int v = vertices[std::size_t(i)];
-    double bound = linear_bound(v);
-    if (scene_.body[std::size_t(v)] != Trajectory::kLinear) trajectory_.straying(t1_, t1_, &v, 1, &bound);
     double& side = largest[i >= points_of_first_side(kind)];
-    side = std::max(side, bound);
+    side = std::max(side, rounding_at(t1_, vertices[std::size_t(i)]));
   }
   return largest[0] + largest[1];
 }
 
+double Pieces::largest_rounding(const std::vector<int>& vertices) {
+  std::vector<double> bounds(vertices.size());
+  const Fault fault = ask_straying(trajectory_, 1, 1, vertices.data(), vertices.size(), bounds.data());
+  note(fault.outcome, fault.vertex);
+  return bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
+}
+
 // The sums round by less than 2^-52 of themselves.
-VertexBox Pieces::box(int v, double t0, double t1) const {
+VertexBox Pieces::box(int v, double t0, double t1) {
   double x[2][3], bound = linear_bound(v);
   if (scene_.body[std::size_t(v)] == Trajectory::kLinear) {
     put_linear(v, t0, x[0]), put_linear(v, t1, x[1]);
   } else {
     trajectory_.positions(t0, &v, 1, x[0]), trajectory_.positions(t1, &v, 1, x[1]);
     trajectory_.straying(t0, t1, &v, 1, &bound);
+    note(fault_of(v, x[0], x[1], bound), v);
   }
   VertexBox r;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -158,7 +155,7 @@ VertexBox Pieces::box(int v, double t0, double t1) const {
   return r;
 }
 
-bool Pieces::is_coarse(const std::vector<int>& vertices, double enough) const {
+bool Pieces::is_coarse(const std::vector<int>& vertices, double enough) {
   const auto worst = std::max_element(vertices.begin(), vertices.end(), [&](int v, int w) {
     return bound_[std::size_t(v)] < bound_[std::size_t(w)];
   });
@@ -166,9 +163,7 @@ bool Pieces::is_coarse(const std::vector<int>& vertices, double enough) const {
   const double bound = bound_[std::size_t(*worst)];
   double way = 0;
   for (int a = 0; a < 3; ++a) way = std::max(way, std::fabs(motion_.t1(*worst)[a] - motion_.t0(*worst)[a]));
-  double rounding;
-  trajectory_.straying(t1_, t1_, &*worst, 1, &rounding);
-  return bound > enough && bound > kCoarse * way && bound > 2 * rounding;
+  return bound > enough && bound > kCoarse * way && bound > 2 * rounding_at(t1_, *worst);
 }
 
 }  // namespace onset

@@ -6,6 +6,7 @@
 #include "onset/result.hpp"
 #include "onset/trajectory.hpp"
 #include "scene/motion/motion.hpp"
+#include "src/trajectory/bounds.hpp"
 #include "src/trajectory/crossing.hpp"
 #include "src/trajectory/turning_scene.hpp"
 
@@ -22,15 +23,16 @@ class Pieces {
   Pieces(TurningScene& scene, const Trajectory& trajectory, const std::vector<double>& x0,
          const std::vector<double>& x1);
 
-  // Makes the chords of [t0, t1] and the thickness of scene.pieces. Returns what is wrong with a position, or
-  // with a bound; bad_vertex() is the first. Throws std::invalid_argument for a bound below 0.
+  // Makes the chords of [t0, t1] and the thickness of scene.pieces. Returns whether nothing was wrong so far.
   //
   // Pairs whose chords keep their separation, both thicknesses and both of the largest bounds keep their
   // separation, truly and as stored: a point of a primitive strays no farther than the vertex that strays
   // most. Boxes have the thickness of scene.pieces: where vertices have one of their own all get the largest
   // bound there, since the thickest need not be the one that strays.
-  Outcome set(double t0, double t1, const std::vector<int>& vertices);
-  int bad_vertex() const { return bad_vertex_; }
+  bool set(double t0, double t1, const std::vector<int>& vertices);
+  // The first thing that was wrong with a position or a bound, in all that was asked of the trajectory:
+  // answers are then of no use. For a bound below 0 std::invalid_argument is thrown.
+  const Fault& fault() const { return fault_; }
 
   const Motion& motion() const { return motion_; }
   // Of each vertex: how far it strays.
@@ -46,18 +48,24 @@ class Pieces {
   // How much separation the pair has been given, rounded up.
   double added(const std::array<int, 4>& vertices, PairKind kind) const;
   // How much of that is rounding, and would be in any piece that ends here.
-  double rounding(const std::array<int, 4>& vertices, PairKind kind) const;
+  double rounding(const std::array<int, 4>& vertices, PairKind kind);
+  // The most that rounding makes of any of these vertices, none of which is linear, at t = 1.
+  double largest_rounding(const std::vector<int>& vertices);
   // Contains a vertex, truly, at all times of [t0, t1]; the vertex and the times may be any.
-  VertexBox box(int v, double t0, double t1) const;
+  VertexBox box(int v, double t0, double t1);
   // Whether chords follow the paths so badly that boxes around them are no good: more than 1/32 of the way,
   // about a quarter of a radian, and more than `enough`.
-  bool is_coarse(const std::vector<int>& vertices, double enough) const;
+  bool is_coarse(const std::vector<int>& vertices, double enough);
   double largest_bound() const { return largest_; }
 
  private:
   void put_linear(int v, double t, double* x) const;
   void fill(double t0, double t1, const int* vertices, std::size_t count);
   double linear_bound(int v) const;
+  double rounding_at(double t, int v);
+  void note(Outcome outcome, int vertex) {
+    if (outcome != Outcome::free && fault_.outcome == Outcome::free) fault_ = {outcome, vertex};
+  }
 
   TurningScene& scene_;
   const Trajectory& trajectory_;
@@ -65,7 +73,7 @@ class Pieces {
   Motion motion_;
   std::vector<double> bound_;
   double t0_ = 0, t1_ = 0, largest_ = 0;
-  int bad_vertex_ = -1;
+  Fault fault_;
 };
 
 }  // namespace onset

@@ -11,7 +11,7 @@ namespace {
 // Of the step: the first try, after toi.
 constexpr double kFirstTry = 0x1p-44;
 
-PairBoxes boxes(const Pieces& pieces, const Contact& contact, double t0, double t1) {
+PairBoxes boxes(Pieces& pieces, const Contact& contact, double t0, double t1) {
   PairBoxes r;
   for (std::size_t i = 0; i < 4; ++i) r[i] = pieces.box(contact.vertices[i], t0, t1);
   return r;
@@ -48,8 +48,7 @@ bool is_within(double separation, const Contact& contact, const PairBoxes& at) {
 
 }  // namespace
 
-void prove(const Pieces& pieces, const std::vector<double>& thickness, double min_separation,
-           Contact& contact) {
+void prove(Pieces& pieces, const std::vector<double>& thickness, double min_separation, Contact& contact) {
   const double separation = separation_of(thickness, min_separation, contact);
   const double toi = contact.toi;
   const PairBoxes first = boxes(pieces, contact, toi, toi);

@@ -51,6 +51,8 @@ class Refinement {
       double length = 1;
       for (double t0 = 0; t0 < 1 && t0 <= until_ && !ended(); t0 += length) length = piece(t0, length);
     }
+    if (const Fault& fault = pieces_.fault(); fault.outcome != Outcome::free)
+      a_.outcome = fault.outcome, a_.vertex = fault.vertex;
     if (ended() && a_.outcome != Outcome::out_of_memory) a_.complete_until = std::min(a_.complete_until, 0.0);
     return std::move(a_);
   }
@@ -58,13 +60,11 @@ class Refinement {
  private:
   const MeshData& data() const { return *q_.scene.pieces; }
   bool ended() const {
-    return a_.outcome != Outcome::free || budget_.outcome() != Outcome::free ||
-           (q_.collect == Collect::any && !a_.contacts.empty());
+    return a_.outcome != Outcome::free || pieces_.fault().outcome != Outcome::free ||
+           budget_.outcome() != Outcome::free || (q_.collect == Collect::any && !a_.contacts.empty());
   }
   bool set(double t0, double t1, const std::vector<int>& vertices) {
-    a_.outcome = pieces_.set(t0, t1, vertices);
-    if (a_.outcome != Outcome::free) a_.vertex = pieces_.bad_vertex();
-    return a_.outcome == Outcome::free && !budget_.spent();
+    return pieces_.set(t0, t1, vertices) && !budget_.spent();
   }
 
   bool prepare();
@@ -74,7 +74,7 @@ class Refinement {
   TraversalResult decide(const PairSource& pairs);
   void count(const TraversalResult& traversal);
   std::vector<Pending> sort_out(const std::vector<FoundPair>& found, const std::vector<Pending>& asked);
-  bool is_done(const FoundPair& f, const std::array<int, 4>& vertices, bool at_start) const;
+  bool is_done(const FoundPair& f, const std::array<int, 4>& vertices, bool at_start);
   void look_at_start(std::vector<Pending>& pairs);
   void report(FoundPair f, double t, double share, double added);
   void add_geometry(Contact& contact, double share) const;
@@ -113,11 +113,9 @@ bool Refinement::prepare() {
     for (int a = 0; a < 3; ++a)
       largest =
           std::max({largest, std::fabs(pieces_.motion().t0(v)[a]), std::fabs(pieces_.motion().t1(v)[a])});
-  std::vector<double> rounding(q_.scene.turning_vertices.size());
-  q_.trajectory.straying(1, 1, q_.scene.turning_vertices.data(), rounding.size(), rounding.data());
-  const double most = rounding.empty() ? 0 : *std::max_element(rounding.begin(), rounding.end());
+  const double most = pieces_.largest_rounding(q_.scene.turning_vertices);
   a_.rounding = (kStoring * (largest + strays) + 2 * most + 0x1p-1070) * (1 + 0x1p-50);
-  return true;
+  return !ended();
 }
 
 // Decides a piece of the whole scene from t0 on, of this length or less, which is a power of two that t0 is a
@@ -245,7 +243,7 @@ std::vector<Pending> Refinement::sort_out(const std::vector<FoundPair>& found,
 }
 
 // Says whether a pair is reported as it is: within the tolerance, or as shorter pieces would find it too.
-bool Refinement::is_done(const FoundPair& f, const std::array<int, 4>& vertices, bool at_start) const {
+bool Refinement::is_done(const FoundPair& f, const std::array<int, 4>& vertices, bool at_start) {
   const double added = pieces_.added(vertices, f.kind);
   if (!pieces_.divisible()) return true;
   return (!at_start && added <= 0.25 * a_.tolerance) || added <= 1.5 * pieces_.rounding(vertices, f.kind);

@@ -12,6 +12,7 @@
 
 #include "scene/pair_source.hpp"
 #include "scene/static_cache.hpp"
+#include "src/trajectory/bounds.hpp"
 
 namespace onset {
 namespace {
@@ -202,12 +203,13 @@ void TurningScene::list(const Lists& near) {
   filter->moving_vertices = vertices_of(*pieces, filter->moving);
 }
 
-std::vector<double> TurningScene::widened_at_rest(const Trajectory& trajectory) const {
+std::optional<std::vector<double>> TurningScene::widened_at_rest(const Trajectory& trajectory) const {
   std::vector<int> rigid;
   for (const int v : turning_vertices)
     if (body[std::size_t(v)] >= 0) rigid.push_back(v);
   std::vector<double> strays(rigid.size()), widened = thickness;
-  trajectory.straying(1, 1, rigid.data(), rigid.size(), strays.data());
+  const Fault fault = ask_straying(trajectory, 1, 1, rigid.data(), rigid.size(), strays.data());
+  if (fault.outcome != Outcome::free) return std::nullopt;
   widened.resize(body.size());
   const double most = strays.empty() ? 0 : *std::max_element(strays.begin(), strays.end());
   for (std::size_t i = 0; i < rigid.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "onset/mesh.hpp"
@@ -47,8 +48,8 @@ struct TurningScene {
   // Lets only these of `others` take part in the pieces.
   void list(const std::array<std::vector<int>, 3>& near);
   // The mesh's thickness, and with it what storing vertices of rigid bodies can bring them closer: the
-  // largest of each primitive's sum is at least the sum of its largest.
-  std::vector<double> widened_at_rest(const Trajectory& trajectory) const;
+  // largest of each primitive's sum is at least the sum of its largest. None where a bound is not usable.
+  std::optional<std::vector<double>> widened_at_rest(const Trajectory& trajectory) const;
   // Whether a pair has a vertex that is not linear.
   bool is_of_pieces(PairKind kind, IdPair pair) const;
   // Whether all vertices of a pair are in one rigid body.
