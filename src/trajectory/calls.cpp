@@ -153,17 +153,40 @@ std::vector<FoundPair> Call::in_bodies(Stats& stats) {
   return both;
 }
 
-void stop_at(const Pair& pair, double t, Outcome outcome, StepResult& r) {
-  r.step = r.toi = t;
-  r.toi_hi = INFINITY, r.certainty = Certainty::within_tolerance;
-  r.outcome = outcome;
-  r.limiting = pair;
+Outcome outcome_of(const Contact& contact) {
+  if (contact.outcome == PairOutcome::below_rounding) return Outcome::below_rounding;
+  if (contact.outcome == PairOutcome::max_checks)
+    return contact.toi > 0 ? Outcome::max_checks : Outcome::below_rounding;
+  return contact.toi > 0 ? Outcome::contact : Outcome::initial_contact;
 }
 
-Outcome outcome_of(const Contact& contact) {
-  if (contact.outcome == PairOutcome::max_checks) return Outcome::max_checks;
-  if (contact.outcome == PairOutcome::below_rounding) return Outcome::below_rounding;
-  return contact.toi > 0 ? Outcome::contact : Outcome::initial_contact;
+// Of pairs that limit a step: at 0 those that touch come before those that are only too close.
+bool limits_first(const Contact& x, const Contact& y) {
+  if (x.toi != y.toi) return x.toi < y.toi;
+  const auto touches = [](const Contact& c) { return outcome_of(c) == Outcome::initial_contact; };
+  return touches(x) != touches(y) ? touches(x) : before(x, y);
+}
+
+// Lets a contact with a part that turns limit a step, if nothing else does before.
+void limit_by(const Contact& contact, StepResult& r) {
+  const Outcome outcome = outcome_of(contact);
+  const bool touches = outcome == Outcome::initial_contact && r.outcome != outcome;
+  const bool limits = contact.toi < r.step || (r.step == 0 && touches);
+  if (limits) r.step = contact.toi, r.outcome = outcome, r.limiting = contact;
+  if (limits || contact.toi < r.toi)
+    r.toi = contact.toi, r.toi_hi = contact.toi_hi, r.certainty = contact.certainty;
+  if (r.step == 0) r.shortest = 0;
+  if (r.shortest > r.step) {  // a linear pair would be stored too close at any time but 0
+    r.step = r.shortest = 0;
+    r.outcome = Outcome::below_rounding;
+  }
+}
+
+Contact to_contact(const Mesh& mesh, const FoundPair& f) {
+  Contact c;
+  static_cast<Pair&>(c) = to_pair(mesh, f);
+  put(f.result, c);
+  return c;
 }
 
 StepResult Call::step(Collect collect) {
@@ -173,18 +196,9 @@ StepResult Call::step(Collect collect) {
   r.stats.filter_counts = mesh_.filter_counts();
   if (!turns_ || budget_.outcome() != Outcome::free || r.vertex >= 0) return r;
   if (collect == Collect::any && r.toi <= 1) return r;
-  const std::vector<FoundPair> near = in_bodies(r.stats);
-  if (!near.empty()) {
-    const auto is_contact = [](const FoundPair& f) {
-      return f.result.outcome == PairOutcome::initial_contact;
-    };
-    const auto contact = std::find_if(near.begin(), near.end(), is_contact);
-    const FoundPair& first = contact != near.end() ? *contact : near[0];
-    stop_at(to_pair(mesh_, first), 0,
-            contact != near.end() ? Outcome::initial_contact : Outcome::below_rounding, r);
-    r.certainty = first.result.certainty, r.toi_hi = first.result.toi_hi;
-  }
-  const TurningAnswer answer = turning(collect, std::min(r.toi, 1.0));
+  std::vector<Contact> contacts;
+  for (const FoundPair& f : in_bodies(r.stats)) contacts.push_back(to_contact(mesh_, f));
+  const TurningAnswer answer = turning(collect, contacts.empty() ? std::min(r.toi, 1.0) : 0);
   add(stats_of(mesh_, answer), r.stats);
   r.rounding = std::max(r.rounding, reported_rounding(answer.rounding));
   r.stats.seconds_total = clock.seconds();
@@ -196,18 +210,9 @@ StepResult Call::step(Collect collect) {
     r.stats.looked_at = budget_.done();
     return r;
   }
-  const auto first = std::min_element(answer.contacts.begin(), answer.contacts.end(), before_in_step);
-  if (first == answer.contacts.end()) return r;
-  if (first->toi < r.step) {
-    stop_at(*first, first->toi, outcome_of(*first), r);
-    if (first->toi == 0) r.certainty = first->certainty, r.toi_hi = first->toi_hi;
-  } else if (first->toi < r.toi) {
-    r.toi = first->toi, r.toi_hi = INFINITY, r.certainty = Certainty::within_tolerance;
-  }
-  if (r.shortest > r.step) {  // a linear pair would be stored too close
-    r.step = r.shortest = 0;
-    r.outcome = Outcome::below_rounding;
-  }
+  contacts.insert(contacts.end(), answer.contacts.begin(), answer.contacts.end());
+  const auto first = std::min_element(contacts.begin(), contacts.end(), limits_first);
+  if (first != contacts.end()) limit_by(*first, r);
   return r;
 }
 

@@ -221,6 +221,64 @@ TEST_CASE("little memory hides no contact within a body that turns", "[trajector
   }
 }
 
+TEST_CASE("what blocks a trajectory at the start is not hidden by a linear pair that is close",
+          "[trajectory]") {
+  MatrixXd x(12, 3), x1;
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, .2, .2, 1e-16, .3, .2, 1, .2, .3, 1,  // linear, and part
+      10, 0, 0, 11, 0, 0, 10, 1, 0, 10.2, .2, 0, 10.3, .2, 1, 10.2, .3, 1;
+  x.leftCols(2).array() += 1. / 3;
+  x1 = x;
+  x1.middleRows(3, 3).col(2).array() += 1, x1(3, 0) += 0.1;
+  const Mesh mesh(x, triangles(4));
+  CHECK(
+      compute_collision_free_stepsize(Mesh(6, triangles(2)), MatrixXd(x.topRows(6)), MatrixXd(x1.topRows(6)))
+          .shortest > 0);
+  for (const double gap : {0.0, 1e-15, 3e-15, 1e-14, 2e-14, 4e-14, 1e-13}) {
+    for (const bool within : {true, false}) {
+      MatrixXd at = x;
+      at.col(2).tail(3).array() += gap;
+      RigidTrajectory t(at, x1);
+      t.add_body(within ? 6 : 9, 12, {0, 0, 1}, {0, 0, within ? 0. : -1.}, at.row(9).transpose());
+      const StepResult r = compute_collision_free_stepsize(mesh, t);
+      CAPTURE(gap, within, r.step, r.shortest, int(r.outcome));
+      CHECK(r.shortest <= r.step);
+      if (gap == 0) CHECK((r.step == 0 && r.outcome == Outcome::initial_contact && r.limiting->a == 9));
+    }
+  }
+}
+
+TEST_CASE("a step of 0 along a trajectory says whether anything touches", "[trajectory]") {
+  Random random(4712);
+  int zero = 0;
+  for (int i = 0; i < fuzz(300); ++i) {  // a linear pair, one within a body, and one of a body and a triangle
+    MatrixXd x(18, 3), x1;
+    double gap[3];
+    for (int k = 0; k < 3; ++k) {
+      gap[k] = uniform(random, 0, 5) < 1 ? 0 : std::pow(10, uniform(random, -18, -12));
+      x.middleRows(6 * k, 6) << 0, 0, 0, 1, 0, 0, 0, 1, 0, .2, .2, gap[k], .3, .2, 1, .2, .3, 1;
+      x.middleRows(6 * k, 6).col(0).array() += 10 * k + 1. / 3;
+    }
+    x1 = x;
+    x1.middleRows(3, 3).col(2).array() += uniform(random, -1, 1);
+    x1(3, 0) += uniform(random, -0.1, 0.1);
+    RigidTrajectory t(x, x1);
+    t.add_body(6, 12, any(random, 1).transpose(), any(random, 1).transpose(), any(random, 9).transpose());
+    t.add_body(15, 18, any(random, 1).transpose(), any(random, 1).transpose(), any(random, 9).transpose());
+    Options o;
+    if (scenes::coin(random)) o.max_checks = int(uniform(random, 1, 5));
+    const StepResult r = compute_collision_free_stepsize(Mesh(x, triangles(6)), t, o);
+    CAPTURE(i, gap[0], gap[1], gap[2], o.max_checks, r.step, r.shortest, r.toi, int(r.outcome));
+    REQUIRE((r.shortest <= r.step && r.step <= r.toi));
+    zero += r.step == 0;
+    if (r.step == 0) REQUIRE((r.outcome == Outcome::initial_contact || r.outcome == Outcome::below_rounding));
+    if (r.step > 0) REQUIRE((r.outcome != Outcome::initial_contact));
+    const bool touches = gap[0] == 0 || gap[1] == 0 || gap[2] == 0;
+    if (o.max_checks > 1000) REQUIRE((r.outcome == Outcome::initial_contact) == touches);
+    if (touches) REQUIRE(r.step == 0);
+  }
+  CHECK(zero > fuzz(100));
+}
+
 TEST_CASE("planes are counted as such where nothing turns", "[trajectory]") {
   MatrixXd x(3, 3), down(3, 3);
   x << 0, 0, 1, 1, 0, 1, 0, 1, 1;
