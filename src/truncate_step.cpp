@@ -24,20 +24,18 @@ double length(const double (&d)[3]) {
   return std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) / scale;
 }
 
-// The motion that d_hat leaves of each vertex: the nearer ends, and the shares. A rigid body has one share.
+// The motion that d_hat leaves of each vertex: the nearer ends, and the shares. Vertices that go together
+// have one share: of a rigid body, and copies of its vertices elsewhere.
 struct Ball {
   std::vector<double> ends, share;
 
-  Ball(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1, double d_hat)
+  Ball(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1, double d_hat, const Stop& stop)
       : share(std::size_t(x_t0.rows()), 1.0) {
     for (std::ptrdiff_t v = 0; v < x_t0.rows(); ++v)
       share[std::size_t(v)] = share_of(mesh, x_t0, x_t1, v, d_hat);
-    std::vector<double> of_body(mesh.rigid.size(), 1.0);
-    for (std::size_t v = 0; v < share.size(); ++v)
-      if (const int body = rigid_body(mesh, int(v)); body >= 0)
-        of_body[std::size_t(body)] = std::min(of_body[std::size_t(body)], share[v]);
+    // Without rigid bodies, what goes together goes as far.
+    if (!mesh.rigid.empty() && is_finite(x_t0)) share_alike(VertexGroups(mesh, x_t0, x_t1, stop));
     for (std::size_t v = 0; v < share.size(); ++v) {
-      if (const int body = rigid_body(mesh, int(v)); body >= 0) share[v] = of_body[std::size_t(body)];
       const double s = share[v];
       for (int a = 0; a < 3; ++a) {
         const double from = x_t0(std::ptrdiff_t(v), a), to = x_t1(std::ptrdiff_t(v), a);
@@ -47,6 +45,20 @@ struct Ball {
   }
 
  private:
+  static bool is_finite(const Positions& x) {
+    for (std::ptrdiff_t v = 0; v < x.rows(); ++v)
+      for (int a = 0; a < 3; ++a)
+        if (!std::isfinite(x(v, a))) return false;
+    return true;
+  }
+  void share_alike(const VertexGroups& groups) {
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      double least = 1;
+      for (const int* v = groups.begin(g); v != groups.end(g); ++v)
+        least = std::min(least, share[std::size_t(*v)]);
+      for (const int* v = groups.begin(g); v != groups.end(g); ++v) share[std::size_t(*v)] = least;
+    }
+  }
   // 1 for what is not usable, or static and moves: that is for the motion to name.
   static double share_of(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1, std::ptrdiff_t v,
                          double d_hat) {
@@ -72,7 +84,7 @@ class Truncation {
     const bool shaped = x_t0_.cols() == 3 && x_t1_.cols() == 3 && x_t0_.rows() == mesh_.num_vertices() &&
                         x_t1_.rows() == mesh_.num_vertices();
     std::optional<Ball> ball;
-    if (options_.d_hat && shaped) ball.emplace(mesh_.data(), x_t0_, x_t1_, *options_.d_hat);
+    if (options_.d_hat && shaped) ball.emplace(mesh_.data(), x_t0_, x_t1_, *options_.d_hat, budget_.stop());
     const Positions ends = ball ? Positions(ball->ends.data(), x_t0_.rows()) : x_t1_;
     std::vector<double> start_in_plane, ends_in_plane;
     const StepSetup setup(mesh_, of_mesh(x_t0_, start_in_plane), of_mesh(ends, ends_in_plane), options_,

@@ -10,11 +10,26 @@ namespace onset {
 VertexGroups::VertexGroups(const MeshData& mesh, const Motion& motion, const Positions& x_t0,
                            const Stop& stop)
     : group_(std::size_t(mesh.num_vertices)) {
+  join_all(
+      mesh, x_t0, [&](int v, int w) { return at_one_place(motion.t1(v), motion.t1(w)); }, stop);
+}
+
+VertexGroups::VertexGroups(const MeshData& mesh, const Positions& x_t0, const Positions& x_t1,
+                           const Stop& stop)
+    : group_(std::size_t(mesh.num_vertices)) {
+  const auto end_alike = [&](int v, int w) {
+    return x_t1(v, 0) == x_t1(w, 0) && x_t1(v, 1) == x_t1(w, 1) && x_t1(v, 2) == x_t1(w, 2);
+  };
+  join_all(mesh, x_t0, end_alike, stop);
+}
+
+template <class Same>
+void VertexGroups::join_all(const MeshData& mesh, const Positions& x_t0, Same&& end_alike, const Stop& stop) {
   std::iota(group_.begin(), group_.end(), 0);
   if (mesh.weld)
     for (const std::vector<int>& here : shared_places(x_t0, stop)) {
       for (std::size_t j = 1; j < here.size(); ++j) {  // copies that part are no copies
-        const auto same = [&](int v) { return at_one_place(motion.t1(v), motion.t1(here[j])); };
+        const auto same = [&](int v) { return end_alike(v, here[j]); };
         const auto end = here.begin() + std::ptrdiff_t(j), first = std::find_if(here.begin(), end, same);
         if (first != end) join(*first, here[j]);
       }
