@@ -125,7 +125,7 @@ double Pieces::rounding(const std::array<int, 4>& vertices, PairKind kind) {
   double largest[2] = {0, 0};
   for (int i = 0; i < 4; ++i) {
     double& side = largest[i >= points_of_first_side(kind)];
-    side = std::max(side, rounding_at(t1_, vertices[std::size_t(i)]));
+    side = std::max(side, rounding_at(middle(), vertices[std::size_t(i)]));
   }
   return largest[0] + largest[1];
 }

@@ -47,7 +47,7 @@ class Pieces {
 
   // How much separation the pair has been given, rounded up.
   double added(const std::array<int, 4>& vertices, PairKind kind) const;
-  // How much of that is rounding, and would be in any piece that ends here.
+  // How much of that is rounding at the middle, which is in both halves.
   double rounding(const std::array<int, 4>& vertices, PairKind kind);
   // The most that rounding makes of any of these vertices, none of which is linear, at t = 1.
   double largest_rounding(const std::vector<int>& vertices);

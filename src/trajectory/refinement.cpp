@@ -242,7 +242,7 @@ std::vector<Pending> Refinement::sort_out(const std::vector<FoundPair>& found,
   return rest;
 }
 
-// Says whether a pair is reported as it is: within the tolerance, or as shorter pieces would find it too.
+// Says whether a pair is reported as it is: within the tolerance, or as halves would find it too.
 bool Refinement::is_done(const FoundPair& f, const std::array<int, 4>& vertices, bool at_start) {
   const double added = pieces_.added(vertices, f.kind);
   if (!pieces_.divisible()) return true;

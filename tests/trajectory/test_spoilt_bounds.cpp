@@ -127,6 +127,18 @@ TEST_CASE("a bound at rest that is no bound is refused, also of a body that is a
   for (const double wrong : kWrong) CHECK(refused(mesh, t, Spoilt::What::bounds, wrong, at_rest, {}) == 3);
 }
 
+TEST_CASE("a bound of 0 at the start alone costs no checks", "[trajectory]") {
+  MatrixXd x(6, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, .2, .2, 1e-17, .3, .2, 1, .2, .3, 1;
+  const Mesh mesh(x, triangles(2));
+  RigidTrajectory good(x);
+  good.add_body(3, 6, {.1, .3, .2}, {3, 1, 2}, {0, 0, 0});
+  const Spoilt t(good, Spoilt::What::bounds, 0, [](double, double t1, int) { return t1 == 0; });
+  const StepResult r = compute_collision_free_stepsize(mesh, t);
+  CHECK(r.outcome == Outcome::below_rounding);
+  CHECK(r.stats.checks <= compute_collision_free_stepsize(mesh, good).stats.checks);
+}
+
 TEST_CASE("no answer is made of bounds that are none, whenever they are asked for", "[trajectory]") {
   Random random(4711);
   int count = 0, of_positions = 0;

@@ -279,6 +279,26 @@ TEST_CASE("a step of 0 along a trajectory says whether anything touches", "[traj
   CHECK(zero > fuzz(100));
 }
 
+TEST_CASE("what rounding makes later of a trajectory holds no pair at the start", "[trajectory]") {
+  MatrixXd x(6, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, .2, .2, 0, .3, .2, 1, .2, .3, 1;
+  for (const double turns : {1e-300, 1e-12, 1e-7, 1e-3, 1.0})
+    for (const double way :
+         {1., 1e4, 1e8})  // its rounding is 5u of itself in the end, at the start that of x
+      for (const double gap : {1e-14, 1e-12, 1e-10}) {
+        MatrixXd at = x;
+        at(3, 2) = gap;
+        RigidTrajectory t(at);
+        t.add_body(0, 3, {0, 0, turns}, {way, 0, 0}, {0, 0, 0});
+        t.add_body(3, 6, {0, 0, turns}, {way, 0, 1e-6 * way}, {0, 0, 0});
+        const StepResult r = compute_collision_free_stepsize(Mesh(at, triangles(2)), t);
+        CAPTURE(turns, way, gap, r.step, int(r.outcome), r.stats.checks);
+        CHECK(r.step > 0);
+        if (turns < 1e-6) CHECK(r.step == 1);  // else the tolerance may end it
+        CHECK(r.stats.checks < 20000);
+      }
+}
+
 TEST_CASE("planes are counted as such where nothing turns", "[trajectory]") {
   MatrixXd x(3, 3), down(3, 3);
   x << 0, 0, 1, 1, 0, 1, 0, 1, 1;
