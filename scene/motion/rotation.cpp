@@ -73,7 +73,7 @@ double length_up(double x, double y, double z) {
   std::frexp(largest, &exponent);
   const double a = std::ldexp(x, -exponent), b = std::ldexp(y, -exponent), c = std::ldexp(z, -exponent);
   const double length = std::ldexp(std::sqrt(a * a + b * b + c * c) * (1 + 0x1p-48), exponent);
-  return std::max(length, largest);  // also where the scaled one is rounded as a subnormal number
+  return std::max(length, largest);  // a subnormal length is rounded to the nearest one
 }
 
 Turn make_turn(const double* rotation, const double* translation, const double* centre) {
@@ -117,7 +117,7 @@ Orbit orbit_of(const Turn& turn, const double* p) {
           length_up(v[0], v[1], v[2]) + 9.5 * kU * distance + 0x1p-1060};
 }
 
-// The last two terms are products and angles that underflow.
+// The last two terms are products, angles and lengths that underflow.
 double rounding_of_turn(const Turn& turn, const Orbit& orbit, double t) {
   const double sum = orbit.size + 84 * (t * turn.angle) * orbit.distance + 5 * t * turn.translation_length;
   return (kU * sum) * (1 + 0x1p-30) + 0x1p-1068 * orbit.distance + 0x1p-1050;

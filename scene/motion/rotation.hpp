@@ -12,8 +12,8 @@ struct SineCosine {
 };
 SineCosine sine_cosine(double x);
 
-// Returns an upper bound of the length of a vector, within a factor 1 + 2^-46; infinite or NaN where a
-// coordinate is.
+// Returns an upper bound of the length of a vector, within a factor 1 + 2^-46; a subnormal one may be short
+// of it by 2^-1074. Infinite or NaN where a coordinate is.
 double length_up(double x, double y, double z);
 
 // A rotation by t |w| about w, with a translation by t d.
@@ -22,7 +22,7 @@ struct Turn {
   double angle;               // |w| within 3.5u of itself, at most about 2^20
   double translation[3];      // d
   double centre[3];           // c
-  double translation_length;  // |d| or more
+  double translation_length;  // |d| or more, but for 2^-1074
 };
 // Makes the turn of a rotation vector that is not 0.
 Turn make_turn(const double* rotation, const double* translation, const double* centre);
@@ -30,7 +30,7 @@ Turn make_turn(const double* rotation, const double* translation, const double* 
 // Writes c + R(t w) (p - c) + t d; exactly p at t = 0.
 void turn(const Turn& turn, double t, const double* p, double* x);
 
-// What bounds need to know of a vertex: each is an upper bound.
+// What bounds need to know of a vertex: each is an upper bound, but for 2^-1074.
 struct Orbit {
   double size;      // |p|
   double distance;  // |p - c|
