@@ -170,57 +170,6 @@ TEST_CASE("thickness costs a trajectory no checks", "[trajectory]") {
   CHECK(checks[1] <= 2 * checks[0]);
 }
 
-TEST_CASE("an active set of a trajectory says until when memory was enough", "[trajectory]") {
-  constexpr int kCount = 12;  // triangles fall on one that stands, one after the other
-  MatrixXd x(3 * (kCount + 1), 3);
-  x.topRows(3) << -100, -100, 0, 300, -100, 0, -100, 300, 0;
-  for (int k = 1; k <= kCount; ++k)
-    x.middleRows(3 * k, 3) << 5 * k, 0, 0.07 * k, 5 * k, 0.1, 0.07 * k + 2, 5 * k + 0.1, 0.1, 0.07 * k + 2;
-  RigidTrajectory t(x);
-  for (int k = 1; k <= kCount; ++k) t.add_body(3 * k, 3 * k + 3, {0, 0, 3}, {0, 0, -1}, {5.0 * k, 0, 0});
-  const Mesh mesh(x, triangles(kCount + 1));
-  const ActiveSet all = construct_active_set(mesh, t);
-  double latest = 0;
-  for (int pairs = 0; pairs < kCount; ++pairs) {
-    Options o;
-    o.memory_limit = 256 * pairs;
-    const ActiveSet some = construct_active_set(mesh, t, o);
-    latest = std::max(latest, std::min(some.complete_until, 1.0));
-    for (const Contact& c : all) {
-      if (!(c.toi < some.complete_until)) continue;
-      const auto same = [&](const Contact& s) { return s.kind == c.kind && s.a == c.a && s.b == c.b; };
-      REQUIRE(std::any_of(some.begin(), some.end(), same));
-    }
-  }
-  CHECK(latest > 0);
-}
-
-TEST_CASE("little memory hides no contact within a body that turns", "[trajectory]") {
-  constexpr int kNear = 3,
-                kFirst = 3 + 3 * kNear;  // what only storing brings near, and the body's other part
-  MatrixXd x(kFirst + 9, 3);
-  x.topRows(3) << -10, -10, 0, 30, -10, 0, -10, 30, 0;
-  for (int k = 0; k < kNear; ++k) x.middleRows(3 + 3 * k, 3) << k * 2e-8, 0, 1e-9, 1 + k, .1, 1, 1 + k, .2, 1;
-  x.middleRows(kFirst, 6) << 0, 0, -5, 1, 0, -5, 0, 1, -5, .2, .2, -5, .3, .2, -6, .2, .3, -6;
-  x.bottomRows(3) << 1e6, 0, 7, 1e6, 1, 7, 1e6, 0, 8;
-  std::vector<int> touching, above;
-  for (int v = 0; v < int(x.rows()); ++v)
-    (v < 3 || (v >= kFirst && v < kFirst + 6) ? touching : above).push_back(v);
-  const Mesh mesh(x, triangles(int(x.rows()) / 3));
-  RigidTrajectory t(x);
-  t.add_body(touching, {0, 0, 1e-20}, {1e6, 0, 0}, {0, 0, 0});
-  t.add_body(above, {0, 0, 3}, {1e6, 0, 1}, {0, 0, 0});
-  for (const int contacts : {1000, 10, 2, 1, 0}) {
-    Options o;
-    o.memory_limit = 256 * contacts;
-    CAPTURE(contacts);
-    CHECK(compute_collision_free_stepsize(mesh, t, o).outcome == Outcome::initial_contact);
-    CHECK_FALSE(is_step_collision_free(mesh, t, o));
-    const ActiveSet set = construct_active_set(mesh, t, o);
-    CHECK((contacts > 0 ? set.size() > 0 && set[0].a == kFirst + 3 : set.complete_until == 0));
-  }
-}
-
 TEST_CASE("what blocks a trajectory at the start is not hidden by a linear pair that is close",
           "[trajectory]") {
   MatrixXd x(12, 3), x1;
