@@ -2,14 +2,22 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace onset::tests {
 
-inline int fuzz(double count) {
+inline double fuzz_factor() {
   const char* text = std::getenv("ONSET_FUZZ");
-  const double factor = text && *text ? std::atof(text) : 1;
-  return std::max(1, int(count * factor));
+  return text && *text ? std::atof(text) : 1;
+}
+
+inline int fuzz(double count) { return std::max(1, int(count * fuzz_factor())); }
+
+// Says whether the i-th of many that are alike is tried: all are, or that share where the factor is below 1.
+inline bool is_tried(int i) {
+  const double share = fuzz_factor();
+  return share >= 1 || std::floor(share * (i + 1)) > std::floor(share * i);
 }
 
 }  // namespace onset::tests

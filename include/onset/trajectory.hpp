@@ -47,7 +47,7 @@ class ONSET_API Trajectory {
   // t0 = t1 it is all that there is, and of a vertex of a rigid body what it is at t0 = t1 = 1 must hold at
   // all times. A bound that is NaN or infinite is an outcome, whenever it is asked for; one below 0 is
   // refused. The bound should fall with the square of t1 - t0, else calls are slow: a pair may then be looked
-  // at in up to 2^60 pieces of time, unless Options sets a budget.
+  // at in up to 2^62 pieces of time, unless Options sets a budget.
   virtual void straying(double t0, double t1, const int* vertices, std::size_t count,
                         double* bounds) const = 0;
 

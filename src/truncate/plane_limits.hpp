@@ -14,8 +14,8 @@ class PlaneLimits {
       : mesh_(mesh), motion_(motion), options_(options), blocks_(mesh, motion.axes, options.norm) {}
 
   // Appends the vertices that do not certainly go all their way: at most `most`, with the limits that are
-  // there already. Of these, plane.first is the height to
-  // keep, an approximation. One that starts within its separation keeps its own instead.
+  // there already. Of these, plane.first is the height to keep, an approximation. One that starts within its
+  // separation keeps its own instead.
   void add(std::size_t most, Budget& budget, Gathered<MotionLimit>& all) const;
 
   // Says, exactly, whether a vertex that is stored at x keeps its separation, and nearly, whether the height
@@ -23,7 +23,8 @@ class PlaneLimits {
   bool keeps(const MotionLimit& limit, const double* x) const;
 
   // The heights of its limit that a vertex has to lose at both ends of its motion, and what storing can
-  // change: nearly. Of one that starts within its separation only their signs are right.
+  // change: nearly. Of one that starts within its separation the end is below 0 where it is
+  // certainly closer.
   struct Heights {
     double start, end, rounding;
   };

@@ -15,12 +15,15 @@ constexpr PairKind kKinds[] = {PairKind::vertex_face, PairKind::edge_edge};
 // Returns the number of candidates.
 std::size_t expect_agreement(const std::string& what, BroadPhaseInput input) {
   const auto brute = make_broad_phase(BroadPhaseMethod::brute, input);
+  IdPairs all[2];
+  for (std::size_t k = 0; k < 2; ++k) all[k] = candidates(*brute, kKinds[k]);
   std::size_t total = 0;
   for (const Method& method : methods()) {
     input.instruction_set = method.instruction_set;
     const auto phase = make_broad_phase(method.method, input);
-    for (PairKind kind : kKinds) {
-      const IdPairs expected = candidates(*brute, kind), found = candidates(*phase, kind);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const PairKind kind = kKinds[k];
+      const IdPairs &expected = all[k], found = candidates(*phase, kind);
       total += expected.size();
       INFO(what << ", " << method.name << ", kind " << int(kind) << ", test " << int(input.test));
       CHECK(found.size() == expected.size());
