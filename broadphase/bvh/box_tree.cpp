@@ -85,7 +85,7 @@ void BoxTree::make_keys(const MeshData& mesh, const Stop& stop) {
   } while (levels < 3 || used > kBlock);
 }
 
-void BoxTree::lay_out(bool motion, bool in_space) {
+void BoxTree::lay_out(bool motion) {
   std::size_t total = 0, level = blocks();
   view_.levels = 0;
   do {
@@ -107,10 +107,6 @@ void BoxTree::lay_out(bool motion, bool in_space) {
   view_.ids = ids_.data();
   view_.vertices = names_.empty() ? vertices_.data() : names_.data();
   view_.diagonals = {diagonals_ != nullptr ? diagonals_->records.data() : nullptr, vertices_.data()};
-  const bool spans = diagonals_ != nullptr && kind_ == Primitive::edge && in_space;
-  if (const std::size_t floats = spans ? blocks() * std::size_t(kSpanStride) : 0; spans_.size() < floats)
-    spans_ = AlignedArray<float>(floats);
-  view_.spans = spans ? spans_.data() : nullptr;
   view_.keys = keys_.empty() ? nullptr : keys_.data();
   std::size_t first = 0;
   for (int l = 0; l < view_.levels; ++l) {
@@ -132,15 +128,12 @@ void BoxTree::fit(const BroadPhaseInput& input, double inflation, const FloatMap
   if (stop.requested()) return;
   const Supports& supports = own ? mine : vertices;
   rounded_axes_ = supports.rounded_axes;
-  lay_out(motion, input.mesh.dimension == 3);
+  lay_out(motion);
   const FitArguments fit{view_, motion, supports.records.data(), own ? places.data() : vertices_.data(),
                          own ? 1 : vertices_each(kind_)};
   parallel_ranges(blocks(), kGrain, [&](std::size_t first, std::size_t last) {
-    for (; first < last && !stop.requested(); first += kGrain) {
-      const std::size_t end = std::min(first + kGrain, last);
-      kernel.fit_leaves(fit, first, end);
-      if (view_.spans != nullptr) kernel.fit_spans(view_, first, end);
-    }
+    for (; first < last && !stop.requested(); first += kGrain)
+      kernel.fit_leaves(fit, first, std::min(first + kGrain, last));
   });
   for (int l = 1; l < view_.levels && !stop.requested(); ++l)
     parallel_ranges(std::size_t(view_.blocks[l]), kGrain, [&](std::size_t first, std::size_t last) {
@@ -216,11 +209,11 @@ TraverseArguments traverse_arguments(const BoxTree& query, const BoxTree& other,
 }
 
 const BvhKernel& bvh_kernel(InstructionSet kernel) {
-  static constexpr BvhKernel scalar{bvh_scalar::fit_leaves, bvh_scalar::fit_spans, bvh_scalar::fit_level,
-                                    bvh_scalar::write_vertices, bvh_scalar::traverse};
+  static constexpr BvhKernel scalar{bvh_scalar::fit_leaves, bvh_scalar::fit_level, bvh_scalar::write_vertices,
+                                    bvh_scalar::traverse};
 #ifdef ONSET_HAVE_AVX2
-  static constexpr BvhKernel avx2{bvh_avx2::fit_leaves, bvh_avx2::fit_spans, bvh_avx2::fit_level,
-                                  bvh_avx2::write_vertices, bvh_avx2::traverse};
+  static constexpr BvhKernel avx2{bvh_avx2::fit_leaves, bvh_avx2::fit_level, bvh_avx2::write_vertices,
+                                  bvh_avx2::traverse};
   if (runs_avx2(resolve_instruction_set(kernel))) return avx2;
 #endif
   (void)kernel;

@@ -14,7 +14,6 @@ namespace onset {
 // The entry points of broadphase/bvh/kernel.hpp for one instruction set.
 struct BvhKernel {
   decltype(&bvh_scalar::fit_leaves) fit_leaves;
-  decltype(&bvh_scalar::fit_spans) fit_spans;
   decltype(&bvh_scalar::fit_level) fit_level;
   decltype(&bvh_scalar::write_vertices) write_vertices;
   decltype(&bvh_scalar::traverse) traverse;
@@ -56,7 +55,7 @@ class BoxTree {
  private:
   std::size_t blocks() const { return ids_.size() / kBlock; }
   float reach(int row) const;  // a support of the union of all boxes
-  void lay_out(bool motion, bool in_space);
+  void lay_out(bool motion);
   void list_vertices(const MeshData& mesh, const VertexOrder& order, bool alone, const Stop& stop);
   void make_keys(const MeshData& mesh, const Stop& stop);
   // Lists the ids in use, and for each slot the place of its id in that list, or its end.
@@ -69,7 +68,7 @@ class BoxTree {
   const DiagonalRecords* diagonals_ = nullptr;
   AlignedArray<int> ids_, vertices_;        // see TreeView; vertices_ are ranks
   std::vector<int> names_, bodies_, keys_;  // names_: vertices_ as ids, empty for an `alone` tree
-  AlignedArray<float> boxes_, spans_;       // spans_: of edges along diagonals
+  AlignedArray<float> boxes_;
   TreeView view_{};
 };
 

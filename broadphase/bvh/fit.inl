@@ -3,7 +3,6 @@
 
 #include "base/simd/pack.hpp"
 #include "broadphase/bvh/kernel.hpp"
-#include "broadphase/diagonals/blocks.inl"
 
 namespace onset {
 namespace ONSET_ISA {
@@ -105,10 +104,6 @@ int write_vertices(const SupportArguments& a, std::size_t first, std::size_t las
 
 void fit_leaves(const FitArguments& a, std::size_t first, std::size_t last) {
   for (std::size_t n = first; n < last; ++n) a.motion ? fit_leaf<true>(a, n) : fit_leaf<false>(a, n);
-}
-
-void fit_spans(const TreeView& tree, std::size_t first, std::size_t last) {
-  for (std::size_t n = first; n < last; ++n) write_block_span<2>(tree.diagonals, tree.ids, n, tree.spans);
 }
 
 // A lane of a level is the union of a block below: the maximum of each of its rows.

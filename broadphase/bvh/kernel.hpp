@@ -35,9 +35,6 @@ struct TreeView {
   const int* vertices;
   // Its records are null where no diagonals are tested.
   DiagonalPlaces diagonals;
-  // Of edges, where diagonals are tested: how far each leaf block extends along them, kSpanStride
-  // floats. Else null.
-  float* spans;
   // These are null unless keys are compared (scene/primitive_filter.hpp).
   // The PrimitiveKey::body that all of a lane shares, or 0; eight a block.
   const int* bodies[kMaxLevels];
@@ -129,7 +126,6 @@ struct TraverseArguments : PairTestArguments {
 #define ONSET_DECLARE_BVH_KERNEL(isa)                                                                \
   namespace isa {                                                                                    \
   void fit_leaves(const FitArguments& arguments, std::size_t first, std::size_t last);               \
-  void fit_spans(const TreeView& tree, std::size_t first, std::size_t last);                         \
   void fit_level(const TreeView& tree, int level, bool motion, std::size_t first, std::size_t last); \
   int write_vertices(const SupportArguments& arguments, std::size_t first, std::size_t last);        \
   void traverse(const TraverseArguments& arguments);                                                 \

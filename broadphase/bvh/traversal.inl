@@ -3,7 +3,6 @@
 
 #include "base/simd/pairs.hpp"
 #include "broadphase/bvh/box_overlap.inl"
-#include "broadphase/diagonals/blocks.inl"
 #include "broadphase/diagonals/test.inl"
 
 namespace onset {
@@ -133,8 +132,6 @@ class Traversal {
 
   // Finds the children of block a that meet the box of block b.
   void split(int level) {
-    if (kEdges && level == 0 && tests_diagonals())
-      drop_separated_blocks(t_.query.spans, t_.tree.spans, *t_.diagonals, blocks_[0]);
     const Pairs& from = blocks_[level];
     for (int e = 0; e < from.count; ++e) {
       const int a = from.a[e], b = from.b[e];

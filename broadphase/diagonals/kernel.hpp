@@ -9,8 +9,6 @@ namespace onset {
 // map; of a vertex that is too far out for the error of the others it has kFarOut and -kFarOut, with which
 // nothing is apart.
 inline constexpr int kDiagonalStride = 16;
-// The floats of a block's span: the least and the most along the diagonals at t = 0, then at t = 1.
-inline constexpr int kSpanStride = 32;
 inline constexpr float kFarOut = 0x1p100f;
 // So far out, the sum of the magnitudes of its coordinates; and at t = 1, where only the motion up to a
 // t_max < 1 matters.
