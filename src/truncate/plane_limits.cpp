@@ -56,10 +56,9 @@ bool PlaneLimits::keeps(const MotionLimit& limit, const double* x) const {
 }
 
 PlaneLimits::Heights PlaneLimits::heights(const MotionLimit& limit) const {
+  if (limit.starts_within) return {0, comes_no_closer(limit, motion_.t1(limit.pair.a)) ? 0.0 : -1.0, 0};
   const PlaneSpan span(blocks_.planes()[std::size_t(limit.pair.b)], motion_.t0(limit.pair.a),
                        motion_.t1(limit.pair.a));
-  // An end that rounding alone brings closer leaves a part of the way to try.
-  if (limit.starts_within) return {0, span.end - span.start < -2 * span.error ? -1.0 : 0.0, 0};
   return {span.start - limit.plane.first, span.end - limit.plane.first, span.error};
 }
 

@@ -23,8 +23,7 @@ class PlaneLimits {
   bool keeps(const MotionLimit& limit, const double* x) const;
 
   // The heights of its limit that a vertex has to lose at both ends of its motion, and what storing can
-  // change: nearly. Of one that starts within its separation the end is below 0 where it is
-  // certainly closer.
+  // change: nearly. Of one that starts within its separation only their signs are right.
   struct Heights {
     double start, end, rounding;
   };
