@@ -166,7 +166,8 @@ struct Stats {
   PairCounts swept;
   // Pairs handed to the narrow phase; of these, left by the single-precision culls; that needed the inclusion
   // root finder; that spent Options::max_checks; not certified free (of a step: or that storing positions
-  // limits).
+  // limits). Of a step, and with a window, boxes end at a time that the first pairs give, so that counts, not
+  // answers, depend on the order that a mesh keeps from earlier calls.
   PairCounts candidates, after_culls, inclusion, gave_up, contacts;
   std::int64_t checks = 0, max_checks_of_a_pair = 0;
   // [k]: candidates left by the culls that took 2^k checks or more, less than 2^(k + 1); the last: 2^15 or
