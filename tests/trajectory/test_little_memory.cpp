@@ -6,24 +6,17 @@
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/scenes/random.hpp"
+#include "tests/scenes/triangles.hpp"
 #include "tests/src/support/answer.hpp"
 
 namespace onset::tests {
 namespace {
 
 using Eigen::MatrixXd;
+using scenes::any;
 using scenes::Random;
+using scenes::triangles;
 using scenes::uniform;
-
-Eigen::RowVector3d any(Random& random, double size) {
-  return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
-}
-
-Eigen::MatrixXi triangles(int count) {
-  Eigen::MatrixXi faces(count, 3);
-  for (int i = 0; i < count; ++i) faces.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
-  return faces;
-}
 
 // Corners above faces, by nothing or 1e-18 to 1e-8: of one body, of two, and of what is linear.
 struct Corners {

@@ -11,6 +11,7 @@
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/scenes/random.hpp"
+#include "tests/scenes/triangles.hpp"
 #include "tests/src/support/answer.hpp"
 
 namespace onset::tests {
@@ -18,6 +19,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using scenes::Random;
+using scenes::triangles;
 using scenes::uniform;
 using Where = std::function<bool(double t0, double t1, int vertex)>;
 
@@ -107,12 +109,6 @@ MatrixXd triangles_at(Random& random, int count) {
       for (int a = 0; a < 3; ++a) x(3 * k + v, a) = at[a] + uniform(random, -0.4, 0.4);
   }
   return x;
-}
-
-Eigen::MatrixXi triangles(int count) {
-  Eigen::MatrixXi faces(count, 3);
-  for (int i = 0; i < count; ++i) faces.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
-  return faces;
 }
 
 }  // namespace

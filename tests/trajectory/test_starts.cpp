@@ -7,23 +7,16 @@
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/scenes/random.hpp"
+#include "tests/scenes/triangles.hpp"
 
 namespace onset::tests {
 namespace {
 
 using Eigen::MatrixXd;
+using scenes::any;
 using scenes::Random;
+using scenes::triangles;
 using scenes::uniform;
-
-Eigen::RowVector3d any(Random& random, double size) {
-  return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
-}
-
-Eigen::MatrixXi triangles(int count) {
-  Eigen::MatrixXi faces(count, 3);
-  for (int i = 0; i < count; ++i) faces.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
-  return faces;
-}
 
 // Two bodies of the rules, of one triangle each, that may be rigid.
 CollisionRules two_bodies(bool first_is_rigid) {

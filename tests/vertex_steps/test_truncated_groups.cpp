@@ -7,11 +7,13 @@
 #include "tests/catch.hpp"
 #include "tests/fuzz.hpp"
 #include "tests/scenes/random.hpp"
+#include "tests/scenes/triangles.hpp"
 
 using namespace onset;
 using namespace onset::tests;
 using Eigen::MatrixXd;
 using scenes::Random;
+using scenes::triangles;
 using scenes::uniform;
 
 namespace {
@@ -19,12 +21,6 @@ namespace {
 MatrixXd matrix(const std::vector<double>& rows) {
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
       rows.data(), Eigen::Index(rows.size() / 3), 3);
-}
-
-Eigen::MatrixXi triangles(int count) {
-  Eigen::MatrixXi faces(count, 3);
-  for (int i = 0; i < count; ++i) faces.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
-  return faces;
 }
 
 // Triangles, many with a corner where one before has one, in bodies of two triangles that may be rigid.
