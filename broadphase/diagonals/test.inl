@@ -55,6 +55,8 @@ struct DiagonalVerdict {
 };
 class DiagonalTester {
  public:
+  // Where vertices may be far out, a reach of 0 and less or about kFarOut is in doubt, too (docs/theory.md,
+  // L53).
   explicit DiagonalTester(const DiagonalLimits& limits)
       : apart_(F8::load(limits.apart)),
         together_(limits.far_out ? min(F8::load(limits.together), F8::all(-0x1p-120f))

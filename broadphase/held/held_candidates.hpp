@@ -40,7 +40,6 @@ class HeldCandidates {
   bool take(const BroadPhase& tree, const BroadPhaseInput& input, std::size_t most, const Stop& stop);
   void clear();
   bool empty() const { return !held_; }
-  std::size_t size() const { return size_; }
 
   // Says whether no pair of `input` can be missing, if positions are `moved` from those of take() and of this
   // magnitude at most, and it lets so many be held.

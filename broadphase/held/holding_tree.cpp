@@ -46,8 +46,8 @@ class HoldingTree final : public BroadPhase {
   HoldingTree(const BroadPhaseInput& input, const Stop& stop) : tree_(make_bvh(input, stop)) {
     ready_ = tree_->ready();
     made_static_ = tree_->made_static_boxes();
+    count_alike(input);
     if (ready_) note_plain(input);
-    if (!input.diagonals.used) calls_alike_ = 0;
   }
 
   const char* name() const override { return uses_held_ ? "held" : tree_->name(); }
@@ -57,10 +57,7 @@ class HoldingTree final : public BroadPhase {
   void refit(const BroadPhaseInput& input, const Stop& stop) override {
     ready_ = uses_held_ = made_static_ = false;
     whole_ = input.t_max == 1;
-    if (!input.diagonals.used)
-      calls_alike_ = 0;
-    else if (whole_)
-      calls_alike_ = std::min(calls_alike_ + 1, kCallsAlike);
+    count_alike(input);
     double magnitude = 0;
     const double moved = eligible(input) ? positions_.moved(input, magnitude) : INFINITY;
     if (held_.cover(input, moved, magnitude)) {
@@ -108,6 +105,13 @@ class HoldingTree final : public BroadPhase {
   static bool eligible(const BroadPhaseInput& input) {
     return input.motion.status == Outcome::free && input.test != BoxTest::swept && !input.intersections &&
            input.mesh.thickness.empty() && input.most_held > 0;
+  }
+
+  void count_alike(const BroadPhaseInput& input) {
+    if (!input.diagonals.used)
+      calls_alike_ = 0;
+    else if (input.t_max == 1)
+      calls_alike_ = std::min(calls_alike_ + 1, kCallsAlike);
   }
 
   // Later calls are compared with the positions of this one.
